@@ -16,6 +16,7 @@ from asperity.base.arguments import (
     choice,
     flag,
     frozen,
+    number,
     of_kind,
     whole,
 )
@@ -24,10 +25,12 @@ from asperity.contact import Form, Method, contact_model, implausible_notes
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
 from asperity.heating import Heating
+from asperity.results.directions import over_directions
 from asperity.results.friction import COLUMNS, Friction, small_friction_notes
 from asperity.results.gradients import Gradients
 from asperity.results.gradients import of_core as gradients_of_core
 from asperity.results.heat_notes import law_notes
+from asperity.scan_contact import ScanContact
 from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 from asperity.sweeps import StrainFactors
@@ -59,7 +62,7 @@ def friction(
     heating: Heating | None = None,
     branch: Branch = "cold",
     gradients: bool = False,
-    direction: float = 0.0,
+    direction: ArrayLike = 0.0,
 ) -> Friction:
     """Return the friction coefficient of rubber sliding on a rough surface (Eqs 22-24).
 
@@ -113,12 +116,13 @@ def friction(
     gradients : bool
         Also give the slopes of mu over all of these, as `.gradients`, at the cost of some ten
         curves. Not with GSL's methods or heating.
-    direction : float
-        Of sliding [rad], from x (a map's second axis) towards y (its first). It matters to spectra
-        that know directions alone (`SelfAffineSpectrum(axis_ratio=, lay=)`,
+    direction : array_like
+        Of sliding [rad], from x (a map's second axis) towards y (its first); broadcasts with
+        pressure and velocity. It matters to `ScanContact`, whose scan is turned, and to spectra
+        that know directions (`SelfAffineSpectrum(axis_ratio=, lay=)`,
         `power_spectrum(map, directional=True)`): sums over the plane of wavevectors then stand for
         I1 and I2, by as many harmonics as rtol asks for, and `lateral` is the force across. Not
-        with GSL's methods and ScanContact.
+        with GSL's methods. One number where heating, contributions or gradients are asked for.
 
     Returns
     -------
@@ -144,6 +148,27 @@ def friction(
     >>> result.mu.round(4)
     array([0.002 , 0.0205])
     """
+    if np.ndim(direction):
+        return over_directions(
+            partial(
+                friction,
+                spectrum,
+                rubber,
+                poisson_ratio=poisson_ratio,
+                correction=correction,
+                adhesion=adhesion,
+                form=form,
+                rtol=rtol,
+                method=method,
+                strain_factors=strain_factors,
+                threads=threads,
+                shift=shift,
+            ),
+            {"pressure": pressure, "velocity": velocity, "temperature": temperature},
+            direction,
+            {"heating": heating, "contributions": contributions, "gradients": gradients},
+        )
+    angle = number(direction, "direction")
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
     law = known_shift(solid, shift)
     at_points = {"pressure": pressure, "velocity": velocity}
@@ -151,7 +176,7 @@ def friction(
         at_points["temperature"] = temperature
     _check_temperature(temperature, shift, law)
     shape, (p, v, *at) = broadcast(**at_points)
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
+    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, angle)
     parts = surface._core, solid._core
     added = adhesion_core(adhesion)
     with_contributions = flag(contributions, "contributions")
@@ -173,6 +198,8 @@ def friction(
         absurd = implausible_notes(surface, solid, p, v)
         result = _made(core_result, shape, (*solid.notes, *absurd))
         result = _with(result, notes=_size(result))
+        if surface.is_directional or isinstance(correction, ScanContact):
+            result = _with(result, direction=_shaped(np.full(np.size(p), angle), shape))
         if slopes:
             of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t)
             result = _with(result, gradients=gradients_of_core(of, shape))

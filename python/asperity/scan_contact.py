@@ -38,8 +38,10 @@ COLUMNS = {
     "coarse": ("1", "1 on half as many points along a side, for the error of the pixels"),
     "pressure": ("Pa", "nominal pressure"),
     "velocity": ("m/s", "v a_T"),
+    "direction": ("rad", "of sliding, from x towards y"),
     "contact_area": ("1", "real over nominal contact area"),
     "hysteresis": ("1", "hysteresis"),
+    "lateral": ("1", "force across the sliding over the load"),
     "rule_area": ("1", "the same by PartialContact on the map's own rings"),
     "rule_hysteresis": ("1", "the same by PartialContact on the map's own rings"),
     "error": ("1", "complementarity"),
@@ -60,7 +62,7 @@ class SolvedContacts(Table):
 
     Attributes
     ----------
-    rows : ndarray, shape (n, 22)
+    rows : ndarray, shape (n, 24)
         In the order of the columns of `to_dataframe()`. The last four, what `model_error` is made
         of beside `error`, are NaN where they were not judged at that contact.
     """
@@ -100,7 +102,9 @@ class ScanContact(Value):
     What a spectrum does not know, that tops are worn or peaks are sharp, is worth 20 to 200 % of
     mu. This solves steady sliding of the scan (`asperity.validation.slide`) at some velocities and
     pressures and carries the ratio of exact to theory, `PartialContact` on the map's own rings,
-    to all others. At a solved velocity and pressure the result is that of `slide`.
+    to all others. At a solved velocity and pressure the result is that of `slide`. `friction(...,
+    direction=)` turns the scan, whatever its spectrum knows of directions, and `lateral` is the
+    scan's own; each direction has contacts of its own.
 
     Parameters
     ----------

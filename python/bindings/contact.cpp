@@ -45,7 +45,7 @@ py::tuple separations(const Array& pressure, const Array& modulus, double rms_he
   return py::make_tuple(array_of(std::move(effective)), array_of(std::move(rigid)), array_of(std::move(state)));
 }
 
-constexpr py::ssize_t solved_columns = 22;
+constexpr py::ssize_t solved_columns = 24;
 
 /// A row a contact, in the order of `COLUMNS` in scan_contact.py.
 py::array contact_rows(const ScanContact& scan) {
@@ -61,8 +61,10 @@ py::array contact_rows(const ScanContact& scan) {
                              c.coarse ? 1.0 : 0.0,
                              c.pressure,
                              c.velocity,
+                             c.direction,
                              c.contact_area,
                              c.hysteresis,
+                             c.lateral,
                              c.rule_area,
                              c.rule_hysteresis,
                              c.error,
@@ -89,19 +91,21 @@ void add_contacts(ScanContact& scan, const Array& rows) {
                           .coarse = r[6] != 0,
                           .pressure = r[7],
                           .velocity = r[8],
-                          .contact_area = r[9],
-                          .hysteresis = r[10],
-                          .rule_area = r[11],
-                          .rule_hysteresis = r[12],
-                          .error = r[13],
-                          .seconds = r[14],
-                          .points_y = static_cast<std::size_t>(r[15]),
-                          .points_x = static_cast<std::size_t>(r[16]),
-                          .contact_points = r[17],
-                          .interpolation = r[18],
-                          .pixels = r[19],
-                          .scan = r[20],
-                          .joining = r[21]};
+                          .direction = r[9],
+                          .contact_area = r[10],
+                          .hysteresis = r[11],
+                          .lateral = r[12],
+                          .rule_area = r[13],
+                          .rule_hysteresis = r[14],
+                          .error = r[15],
+                          .seconds = r[16],
+                          .points_y = static_cast<std::size_t>(r[17]),
+                          .points_x = static_cast<std::size_t>(r[18]),
+                          .contact_points = r[19],
+                          .interpolation = r[20],
+                          .pixels = r[21],
+                          .scan = r[22],
+                          .joining = r[23]};
     scan.add({&c, 1});
   }
 }

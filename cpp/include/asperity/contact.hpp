@@ -31,7 +31,7 @@ struct ContactModel {
   Method method = Method::gauss;
   /// The modulus at the strain of each magnification; none: that of small strain.
   std::optional<StrainFactors> strain_factors = std::nullopt;
-  /// Of sliding, from x towards y [rad]; only directional spectra differ by it.
+  /// Of sliding, from x towards y [rad]; only directional spectra and ScanContact differ by it.
   double direction = 0;
 };
 

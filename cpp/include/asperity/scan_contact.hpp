@@ -23,8 +23,10 @@ struct SolvedContact {
   bool coarse;                        // on half as many points along a side
   double pressure;                    // [Pa]
   double velocity;                    // v a_T [m/s]
+  double direction;                   // of sliding [rad]
   double contact_area;                // A/A0
   double hysteresis;                  // mu_H
+  double lateral;                     // the force across, over the load
   double rule_area, rule_hysteresis;  // by PartialContact, on the rings of the same map
   double error;                       // complementarity
   double seconds;

@@ -44,17 +44,14 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   for (const double v : velocity) require_positive("velocity", v);
 }
 
-/// A spectrum as it is solved: rows with harmonics where it knows directions.
+/// A spectrum as it is solved: rows with harmonics where it knows directions. A scan's contact knows them by itself.
 class AsSolved {
  public:
   AsSolved(const Spectrum& spectrum, const ContactModel& model) : spectrum_(spectrum) {
-    if (!is_directional(spectrum)) return;
+    if (!is_directional(spectrum) || std::holds_alternative<ScanContact>(model.correction)) return;
     constexpr double least_rtol = 1e-7;  // of the rows of a law (directional_table)
     check_gauss(model.method, "with a directional spectrum, whose force across GSL's methods do not know");
     if (model.rtol < least_rtol) refuse("rtol", model.rtol, "1e-7 or more with a directional spectrum");
-    if (std::holds_alternative<ScanContact>(model.correction))
-      throw InvalidInput(argument("correction") + " = " + word("ScanContact") + ": takes the mean over directions" +
-                         must(", must have ") + "a spectrum without harmonics");
     if (std::holds_alternative<SelfAffineSpectrum>(spectrum)) table_.emplace(directional_table(spectrum));
   }
   [[nodiscard]] const Spectrum& get() const { return table_ ? *table_ : spectrum_; }

@@ -129,7 +129,7 @@ std::vector<double> scan_area(const ScanContact& scan, const Spectrum& spectrum,
     if (wavenumber[j] <= q0) continue;
     const Spectrum cut = truncated(spectrum, std::nullopt, wavenumber[j]);
     std::optional<ScanRatios> ratios;
-    if (wavenumber[j] > longest) ratios.emplace(scan, cut, rubber, model.poisson_ratio, model.strain_factors);
+    if (wavenumber[j] > longest) ratios.emplace(scan, cut, rubber, model);
     const std::vector<double> area =
         contact_area(ratios ? ratios->spectrum() : cut, rubber, model, pressure, velocity, {});
     const std::vector<ScanRatio> ratio =

@@ -86,7 +86,7 @@ LogRatios log_ratios(const SolvedContact& c) {
   constexpr double rim = 0.08;
   const bool loss = c.hysteresis > 0 && c.rule_hysteresis > 0;
   return {loss ? std::log(c.hysteresis / c.rule_hysteresis) : 0, std::log(c.contact_area / c.rule_area),
-          rim / std::sqrt(std::max(1.0, c.contact_points))};
+          loss ? c.lateral / c.hysteresis : 0, rim / std::sqrt(std::max(1.0, c.contact_points))};
 }
 
 namespace {
@@ -111,6 +111,7 @@ struct PartRatios {
     for (const LogRatios& one : each) {
       result.hysteresis += one.hysteresis / static_cast<double>(each.size());
       result.area += one.area / static_cast<double>(each.size());
+      result.across += one.across / static_cast<double>(each.size());
       result.noise = std::max(result.noise, one.noise);
     }
     return result;
@@ -155,9 +156,10 @@ std::optional<Ratio> ScanParts::ratio(MissingContacts& missing, const ContactKey
   for (std::size_t i = 0; i < gain.each.size(); ++i) {
     gain.each[i].hysteresis -= coarse_pieces->each[i].hysteresis;
     gain.each[i].area -= coarse_pieces->each[i].area;
+    gain.each[i].across -= coarse_pieces->each[i].across;
   }
   const LogRatios added = gain.mean(), first = coarse->mean();
-  return Ratio{{first.hysteresis + added.hysteresis, first.area + added.area, added.noise},
+  return Ratio{{first.hysteresis + added.hysteresis, first.area + added.area, first.across + added.across, added.noise},
                std::max({coarse->convergence, fine->convergence, coarse_pieces->convergence}),
                std::hypot(added.hysteresis / 2, gain.error_of_ratio())};
 }

@@ -99,15 +99,16 @@ double ScanRatio::model_error() const {
   return std::hypot(std::hypot(interpolation, pixels, scan), convergence, joining);
 }
 
-ScanRatios::ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, double poisson_ratio,
-                       const std::optional<StrainFactors>& strain)
+ScanRatios::ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber,
+                       const ContactModel& model)
     : contact_(scan),
       rubber_(rubber),
-      poisson_ratio_(poisson_ratio),
-      strain_(strain),
+      poisson_ratio_(model.poisson_ratio),
+      direction_(model.direction),
+      strain_(model.strain_factors),
       band_(common_band(scan.map(), spectrum)),
       spectrum_(*scan.scan().rings(band_)),
-      fingerprint_(fingerprint_of(rubber, strain)) {
+      fingerprint_(fingerprint_of(rubber, strain_)) {
   const Spectrum& rings = *scan.scan().rings(band_);
   const auto [q0, q1] = band(rings);
   const double mine = slope_variance(rings, {q0, q1}), theirs = slope_variance(spectrum, {q0, q1});
@@ -128,7 +129,7 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
   constexpr std::size_t many = 8;
   const bool on_lattice = contact_.pressure_lattice() || std::set(pressure.begin(), pressure.end()).size() > many;
 
-  const ContactKey key{fingerprint_, 0, poisson_ratio_, band_, Scan::whole, false, 0, 0};
+  const ContactKey key{fingerprint_, 0, poisson_ratio_, band_, Scan::whole, false, 0, 0, direction_};
   const auto interpolated = [&](double p, double v) {
     const auto key_of = [&](int position) {
       ContactKey at = key;
@@ -160,6 +161,7 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
     scan.add_errors(parts.first(at), {.pixels = *of_pixels, .scan = *of_scan, .joining = here->joining});
     result[i] = {.hysteresis = std::exp(value->hysteresis),
                  .area = std::exp(value->area),
+                 .across = value->across,
                  .interpolation = value->error,
                  .pixels = *of_pixels,
                  .scan = *of_scan,
@@ -192,8 +194,8 @@ ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule)
   const WaveModulus modulus{
       [&](double q, double w) { return q > 0 ? cold.at(q, w * std::exp(log_a_T(q))) : cold.at(0, w); }, true};
   const auto map = strain_ ? scan.part(band_, Scan::whole, false) : nullptr;
-  const ContactKey key{fingerprint_, fingerprint(rule.a_T), poisson_ratio_, band_, Scan::whole, false, pressure,
-                       velocity};
+  const ContactKey key{
+      fingerprint_, fingerprint(rule.a_T), poisson_ratio_, band_, Scan::whole, false, pressure, velocity, direction_};
   auto found = scan.contact(key);
   if (!found) {
     ContactProgress* const progress = ContactProgress::of(scan);
@@ -205,7 +207,10 @@ ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule)
     if (progress != nullptr) progress->solved(1);
   }
   const LogRatios ratio = log_ratios(*found);
-  return {.hysteresis = std::exp(ratio.hysteresis), .area = std::exp(ratio.area), .convergence = found->error};
+  return {.hysteresis = std::exp(ratio.hysteresis),
+          .area = std::exp(ratio.area),
+          .across = ratio.across,
+          .convergence = found->error};
 }
 
 std::vector<Diagnostic> ScanRatios::notes() const {

@@ -17,6 +17,7 @@ namespace asperity {
 /// Of one point.
 struct ScanRatio {
   double hysteresis = 1, area = 1;
+  double across = 0;  // the force across over that along
   // relative errors: of what is between contacts, of pixels, of having one scan, of contacts that did not converge, and
   // of short waves that were solved on pieces alone
   double interpolation = 0, pixels = 0, scan = 0, convergence = 0, joining = 0;
@@ -35,12 +36,11 @@ struct HotRule {
   std::vector<double> a_T;  // at equal steps of ln q from q0 to q1, beyond which it is constant
 };
 
-/// The contacts of a scan for one spectrum, of which the band counts, and one rubber.
+/// The contacts of a scan for one spectrum, of which the band counts, one rubber and one direction of sliding.
 class ScanRatios {
  public:
   /// InvalidInput where the map is no sample of the spectrum.
-  ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, double poisson_ratio,
-             const std::optional<StrainFactors>& strain);
+  ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model);
 
   /// What the ratios are factors of: the rings of the map, and the spectrum where it goes on beyond the map.
   [[nodiscard]] const Spectrum& spectrum() const { return spectrum_; }
@@ -56,7 +56,7 @@ class ScanRatios {
  private:
   ScanContact contact_;
   const Rubber& rubber_;
-  double poisson_ratio_;
+  double poisson_ratio_, direction_;
   std::optional<StrainFactors> strain_;
   Band band_;
   Spectrum spectrum_;

@@ -15,7 +15,7 @@ ScanFriction::ScanFriction(const Spectrum& spectrum, const Rubber& rubber, const
   if (!scan) return;
   check_gauss(model.method, "with ScanContact, whose ratios are of its results");
   rule_.correction = PartialContact{};
-  ratios_.emplace(*scan, spectrum, rubber, model.poisson_ratio, model.strain_factors);
+  ratios_.emplace(*scan, spectrum, rubber, model);
 }
 
 void ScanFriction::apply(Friction& f, std::span<const double> a_T, unsigned threads) {
@@ -27,6 +27,7 @@ void ScanFriction::apply(Friction& f, std::span<const double> a_T, unsigned thre
     const ScanRatio& r = ratios[i];
     f.error_estimate[i] *= r.error_factor(f.adhesion[i]);
     f.hysteresis[i] *= r.hysteresis;
+    f.lateral[i] = r.across * f.hysteresis[i];
     f.adhesion[i] *= r.area;
     f.contact_area[i] *= r.area;
     f.mu[i] = f.hysteresis[i] + f.adhesion[i];

@@ -150,8 +150,9 @@ SolvedContact Scan::solve(const ContactKey& key, const WaveModulus& modulus) {
   const auto map = part(key.band, key.part, key.coarse);
   const auto begin = std::chrono::steady_clock::now();
   const Course course{.progress = {}};
-  const PeriodContact found = slide_period(map->period, map->pixel_size, modulus,
-                                           {key.poisson_ratio, key.pressure, key.velocity}, rtol, course);
+  const PeriodContact found =
+      slide_period(map->period, map->pixel_size, modulus,
+                   {key.poisson_ratio, key.pressure, key.velocity, key.direction}, rtol, course);
   const SlidingContact& c = found.contact;
   if (!(c.error <= most_error))
     throw NotConverged("the contact of the scan at " + show(key.pressure, 6) +
@@ -167,8 +168,10 @@ SolvedContact Scan::solve(const ContactKey& key, const WaveModulus& modulus) {
           .coarse = key.coarse,
           .pressure = key.pressure,
           .velocity = key.velocity,
+          .direction = key.direction,
           .contact_area = c.contact_area,
           .hysteresis = c.hysteresis,
+          .lateral = c.lateral,
           .rule_area = 0,
           .rule_hysteresis = 0,
           .error = c.error,
@@ -181,7 +184,9 @@ SolvedContact Scan::solve(const ContactKey& key, const WaveModulus& modulus) {
 void Scan::add(const SolvedContact& c) {
   const std::lock_guard lock(mutex_);
   contacts_.insert_or_assign(
-      ContactKey{c.rubber, c.heat, c.poisson_ratio, {c.q0, c.q1}, c.part, c.coarse, c.pressure, c.velocity}, c);
+      ContactKey{
+          c.rubber, c.heat, c.poisson_ratio, {c.q0, c.q1}, c.part, c.coarse, c.pressure, c.velocity, c.direction},
+      c);
 }
 
 void Scan::add_errors(const ContactKey& key, const ContactErrors& errors) {

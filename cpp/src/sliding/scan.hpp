@@ -32,6 +32,7 @@ struct ContactKey {
   int part;
   bool coarse;
   double pressure, velocity;
+  double direction;
   auto operator<=>(const ContactKey&) const = default;
 };
 

@@ -25,6 +25,7 @@ Interpolated polynomial(std::span<const double> at, std::span<const LogRatios> v
       if (j != i) weight *= (x - at[j]) / (at[i] - at[j]);
     result.hysteresis += weight * values[i].hysteresis;
     result.area += weight * values[i].area;
+    result.across += weight * values[i].across;
   }
   return result;
 }
@@ -49,9 +50,11 @@ double VelocityLattice::position(double velocity) const {
 namespace {
 
 LogRatios operator+(const LogRatios& a, const LogRatios& b) {
-  return {a.hysteresis + b.hysteresis, a.area + b.area, 0};
+  return {a.hysteresis + b.hysteresis, a.area + b.area, a.across + b.across, 0};
 }
-LogRatios operator*(double factor, const LogRatios& a) { return {factor * a.hysteresis, factor * a.area, 0}; }
+LogRatios operator*(double factor, const LogRatios& a) {
+  return {factor * a.hysteresis, factor * a.area, factor * a.across, 0};
+}
 
 /// A step of the lattice, as often halved as it must be.
 struct Step {
@@ -81,7 +84,7 @@ class VelocityInterpolant {
         u * u * (1 + 2 * t) * step->begin + t * t * (3 - 2 * t) * step->end + t * u * u * *from + -t * t * u * *to;
     const LogRatios at_middle = 0.5 * (step->begin + step->end) + 0.125 * (*from + -1 * *to);
     const LogRatios value = cubic + 16 * t * t * u * u * (step->middle + -1 * at_middle);
-    return Interpolated{value.hysteresis, value.area, step->miss, step->first + step->length / 2};
+    return Interpolated{value.hysteresis, value.area, value.across, step->miss, step->first + step->length / 2};
   }
 
  private:
@@ -136,7 +139,7 @@ std::optional<Interpolated> over_velocity(const VelocityLattice& lattice, double
                                           const ContactAt& contact_at) {
   if (lattice.last() > 0) return VelocityInterpolant(lattice, tolerance, contact_at)(lattice.position(velocity));
   const auto only = contact_at(0);
-  return only ? std::optional(Interpolated{only->hysteresis, only->area, 0}) : std::nullopt;
+  return only ? std::optional(Interpolated{only->hysteresis, only->area, only->across, 0}) : std::nullopt;
 }
 
 namespace {
@@ -162,7 +165,7 @@ std::optional<Interpolated> over_pressure(double pressure, double tolerance,
     complete = complete && value;
     at[k] = first + i;
     if (!value) continue;
-    values[k] = {value->hysteresis, value->area, 0};
+    values[k] = {value->hysteresis, value->area, value->across, 0};
     error = std::max(error, value->error);
   }
   if (!complete) return std::nullopt;
@@ -174,7 +177,7 @@ std::optional<Interpolated> over_pressure(double pressure, double tolerance,
   const Interpolated low = polynomial(std::span(at).first(3), std::span(values).first(3), x),
                      high = polynomial(std::span(at).last(3), std::span(values).last(3), x);
   error += std::max(std::fabs(low.hysteresis - high.hysteresis), std::fabs(low.area - high.area)) / 2;
-  return Interpolated{value.hysteresis, value.area, error};
+  return Interpolated{value.hysteresis, value.area, value.across, error};
 }
 
 }  // namespace asperity

@@ -7,9 +7,10 @@
 
 namespace asperity {
 
-/// Logarithms of exact over rule of one contact, and how far its pixels may have them off.
+/// Logarithms of exact over rule of one contact, the force across over that along, and how far its pixels may have
+/// the logarithms off.
 struct LogRatios {
-  double hysteresis, area, noise;
+  double hysteresis, area, across, noise;
 };
 
 /// log10 of velocities: equal steps of about a decade from one end to the other, beyond which the ratio is constant.
@@ -36,7 +37,7 @@ double lattice_pressure(int index, double tolerance);
 using ContactAt = std::function<std::optional<LogRatios>(int position)>;
 
 struct Interpolated {
-  double hysteresis, area;
+  double hysteresis, area, across;
   double error;     // of both, relative
   int checked = 0;  // the position whose contact told it
 };

@@ -71,10 +71,17 @@ class Table(Value):
         flat = {name: _in_full(column, sizes).ravel() for name, column in named.items()}
         return pandas.DataFrame(flat)
 
+    @property
+    def _is_polar(self) -> bool:
+        """Whether its own axes are polar."""
+        return False
+
     def plot(self, ax: Any = None) -> Any:
         """Draw into the matplotlib axes `ax`, new ones unless given, and return them."""
         if ax is None:
-            ax = imported("matplotlib.pyplot", "plot").subplots(layout="constrained")[1]
+            how = {"projection": "polar"} if self._is_polar else {}
+            pyplot = imported("matplotlib.pyplot", "plot")
+            ax = pyplot.subplots(layout="constrained", subplot_kw=how)[1]
         self._draw(ax)
         return ax
 

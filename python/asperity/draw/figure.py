@@ -42,9 +42,9 @@ def check_plot(path: Path) -> None:
         ) from error
 
 
-def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
+def new_figure(panels: int, *, polar: bool = False) -> "tuple[Figure, Sequence[Axes]]":
     """A figure of one to three panels in a row, or of two rows of two to four; in a single column
-    all of them under one another."""
+    all of them under one another. The first one may be polar."""
     from matplotlib.figure import Figure
 
     rows = 1 if panels < 4 else 2
@@ -55,8 +55,9 @@ def new_figure(panels: int) -> "tuple[Figure, Sequence[Axes]]":
         rows, columns, size = panels, 1, (COLUMN, 2.6 * panels)
     figure = Figure(figsize=size, layout="constrained")
     tell_fatal_notes(figure)
-    drawn = [figure.add_subplot(rows, columns, i + 1) for i in range(panels)]
-    for axes in drawn:
+    kinds = ["polar" if polar and i == 0 else None for i in range(panels)]
+    drawn = [figure.add_subplot(rows, columns, i + 1, projection=k) for i, k in enumerate(kinds)]
+    for axes in drawn[polar:]:
         axes.tick_params(which="both", direction="in", top=True, right=True)
     return figure, drawn
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from asperity._core import FATAL_EXTRAPOLATION
 from asperity.base.celsius import ZERO_CELSIUS, temperature_text
+from asperity.draw.directions import DIRECTION, draw_directions
 from asperity.draw.figure import (
     MOST_ENTRIES,
     PRESSURE,
@@ -28,11 +29,18 @@ TEMPERATURE = "Temperature $T_0$"
 _MOST_SHADED = 3  # curves whose model error can be told apart
 _KINDS = {"total": "-", "hysteresis": "--", "adhesion": ":"}
 _COLD = "-."  # mu without heat
+_NAMES = {
+    VELOCITY: "velocity",
+    PRESSURE: "pressure",
+    TEMPERATURE: "temperature",
+    DIRECTION: "direction",
+}
 _WIDTH = 1.8  # points, of the line of mu
 _HALO = 0.03  # of mu, to either side of a part that is guessed
 _SAME = 0.01  # relative, of two curves that lie on one another
 _FAR_APART = 30  # times; curves whose largest mu are so far apart share no linear axis
-_COLUMNS = ("mu", "hysteresis", "adhesion", "extrapolated_share", "model_error", "error_estimate")
+_PARTS = ("mu", "lateral", "hysteresis", "adhesion")
+_COLUMNS = (*_PARTS, "extrapolated_share", "model_error", "error_estimate")
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +51,7 @@ class Curve:
     pressure: float
     x: NDArray[np.float64]
     mu: NDArray[np.float64]
+    lateral: NDArray[np.float64]
     hysteresis: NDArray[np.float64]
     adhesion: NDArray[np.float64]
     extrapolated_share: NDArray[np.float64]  # of the hysteresis
@@ -55,8 +64,13 @@ class Curve:
 
 
 def abscissa_of(results: Sequence[Any], *, temperatures: bool) -> str:
-    """What a picture is drawn over: the velocity, or what else varies where it does not.
-    `temperatures` tells whether the results are those of several each."""
+    """What a picture is drawn over: the velocity, or what else varies where it does not, and the
+    direction where that has more values. `temperatures` tells whether the results are those of
+    several each."""
+    directions = np.unique(np.concatenate([np.ravel(_direction(one)) for one in results]))
+    fewer = max(2, *(np.unique(result.velocity).size for result in results))
+    if np.isfinite(directions).sum() > fewer:
+        return DIRECTION
     if any(np.ptp(result.velocity) > 0 for result in results):
         return VELOCITY
     if temperatures or all(np.ptp(_background(result)) > 0 for result in results):
@@ -74,14 +88,14 @@ def curves_of(
 ) -> Iterator[Curve]:
     """The curves of results, of which those of one name are one sweep; `temperatures` are theirs
     where they do not know them themselves."""
-    over = {VELOCITY: "velocity", PRESSURE: "pressure", TEMPERATURE: "temperature"}[abscissa]
+    over = _NAMES[abscissa]
     for name in dict.fromkeys(names):
         of_name = [i for i, one in enumerate(names) if one == name]
         parts = [_columns(results[i], temperatures[i]) for i in of_name]
         flat = {key: np.concatenate([part[key] for part in parts]) for key in parts[0]}
-        keys = [key for key in ("temperature", "pressure", "velocity") if key != over]
-        warm = np.nan_to_num(flat["temperature"])
-        told = [key for key in keys if key != "temperature" or np.ptp(warm) > 0]
+        keys = [key for key in ("temperature", "pressure", "velocity", "direction") if key != over]
+        varied = {key for key in keys if np.ptp(np.nan_to_num(flat[key])) > 0}
+        told = [key for key in keys if key in ("pressure", "velocity") or key in varied]
         points = np.stack([np.nan_to_num(flat[key]) for key in keys], axis=-1)
         first = np.unique(points, axis=0, return_index=True)[1]
         for start in sorted(first):
@@ -100,7 +114,7 @@ def _text(key: str, value: float, *, celsius: bool) -> str:
         return pressure_text(value)
     if key == "temperature":
         return temperature_text(value, celsius=celsius)
-    return f"{value:.3g} m/s"
+    return f"{value:.4g}°" if key == "direction" else f"{value:.3g} m/s"
 
 
 def _background(result: Any) -> NDArray[np.float64]:
@@ -110,12 +124,19 @@ def _background(result: Any) -> NDArray[np.float64]:
     return np.asarray(np.nan if temperature is None else temperature, dtype=np.float64)
 
 
+def _direction(result: Any) -> NDArray[np.float64]:
+    """The direction of sliding of a result [degrees]; NaN where it has none."""
+    found = getattr(result, "direction", None)
+    return np.degrees(np.asarray(np.nan if found is None else found, dtype=np.float64))
+
+
 def _columns(result: Any, temperature: float | None) -> dict[str, NDArray[np.float64]]:
     """Everything that curves take from a result, flat."""
     unknown = np.full(np.shape(result.mu), np.nan)
     background = _background(result) if temperature is None else np.asarray(float(temperature))
     band = getattr(result, "band", None) or (unknown, unknown)
     columns = {"pressure": result.pressure, "velocity": result.velocity, "temperature": background}
+    columns |= {"direction": _direction(result)}
     columns |= {name: getattr(result, name, unknown) for name in _COLUMNS}
     columns |= {"low": band[0], "high": band[1], "cold": unknown, "rise": unknown}
     if getattr(result, "cold", None) is not None:
@@ -147,6 +168,9 @@ def draw_friction(
     kinds = dict(_KINDS)
     if not any(np.any(curve.adhesion > 0) for curve in curves):
         kinds = {"total": "-"}
+    if abscissa == DIRECTION:
+        draw_directions(axes, curves, tints, labelled=not many)
+        return tints
     known = [c for c in curves if np.isfinite(c.model_error).any()]
     hatched = bool(model) and bool(known) and len(curves) <= _MOST_SHADED
     for curve, colour in zip(curves, tints, strict=True):
@@ -172,6 +196,8 @@ def label_abscissa(axes: "Axes", abscissa: str, *, celsius: bool) -> None:
     """Scale and label what is drawn over."""
     if abscissa == TEMPERATURE:
         axes.set_xlabel(f"{abscissa} [{'°C' if celsius else 'K'}]")
+    elif abscissa == DIRECTION:
+        axes.set_xlabel(DIRECTION)
     else:
         axes.set_xscale("log")
         axes.set_xlabel(abscissa)

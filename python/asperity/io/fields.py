@@ -139,9 +139,18 @@ def pixel_size(value: object) -> float | tuple[float, float]:
 
 def sweep(value: object) -> Any:
     """Array of the values that a number, a list or a logarithmic sweep stands for."""
-    allowed = "a number, a list, or {from = 1e-6, to = 10, points = 60}"
+    return _swept(value, "{from = 1e-6, to = 10, points = 60}", _logarithmic)
+
+
+def angles(value: object) -> Any:
+    """The same of degrees, in equal steps."""
+    return _swept(value, "{from = 0, to = 360, points = 73}", _even)
+
+
+def _swept(value: object, example: str, spread: Callable[[Any, str], Any]) -> Any:
+    allowed = f"a number, a list, or {example}"
     if isinstance(value, dict):
-        return _logarithmic(value)
+        return spread(value, example)
     if isinstance(value, list):
         if not value:
             raise _WrongValueError(_MUST, f"{allowed}, and not empty")
@@ -152,7 +161,18 @@ def sweep(value: object) -> Any:
         raise _WrongValueError(_MUST, allowed) from None
 
 
-def _logarithmic(value: Mapping[str, object]) -> Any:
+def _logarithmic(value: Mapping[str, object], example: str) -> Any:
+    low, high, points = _ends(value, example)
+    if not (0 < low < np.inf and 0 < high < np.inf):
+        raise _WrongValueError(_MUST, "a sweep between two positive numbers")
+    return np.geomspace(low, high, points)
+
+
+def _even(value: Mapping[str, object], example: str) -> Any:
+    return np.linspace(*_ends(value, example))
+
+
+def _ends(value: Mapping[str, object], example: str) -> tuple[float, float, int]:
     for key in value:
         if key not in _SWEEP:
             raise _WrongValueError(f"unknown key {shortened(key)}, {nearest(key, _SWEEP)}")
@@ -160,17 +180,15 @@ def _logarithmic(value: Mapping[str, object]) -> Any:
     entries = []
     for key, read in zip(_SWEEP, readers, strict=True):
         if key not in value:
-            raise _WrongValueError(f"{key} is missing, as in {{from = 1e-6, to = 10, points = 60}}")
+            raise _WrongValueError(f"{key} is missing, as in {example}")
         try:
             entries.append(read(value[key]))
         except _WrongValueError as wrong:
             raise _WrongValueError(f"{key} ", *wrong.sentence) from None
     low, high, points = entries
-    if not (0 < low < np.inf and 0 < high < np.inf):
-        raise _WrongValueError(_MUST, "a sweep between two positive numbers")
     if not 2 <= points <= MOST_POINTS:
         raise _WrongValueError("points ", _MUST, f"in 2..{MOST_POINTS}")
-    return np.geomspace(low, high, points)
+    return low, high, points
 
 
 _READERS: dict[Any, Callable[[object], Any]] = {

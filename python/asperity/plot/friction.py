@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.draw.directions import DIRECTION
 from asperity.draw.figure import PRESSURE, legend, new_figure, picture, pressure_text
 from asperity.draw.friction import (
     TEMPERATURE,
@@ -33,13 +34,15 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[SceneFriction], p
     the rise that each roughness feels."""
     files = [scene.path for scene in scenes]
     abscissa = abscissa_of(results, temperatures=all(files.count(one) > 1 for one in files))
-    names = _files(scenes) if abscissa == TEMPERATURE else _names(scenes)
+    names = _files(scenes) if abscissa in (TEMPERATURE, DIRECTION) else _names(scenes)
     celsius = all(scene.in_celsius for scene in scenes)
     given = [scene.temperature for scene in scenes]
     curves = list(curves_of(results, names, abscissa, given, celsius=celsius))
     heated = any(np.isfinite(curve.rise).any() for curve in curves)
     profiled = next((s for s in scenes if s.heating is not None and s.velocity.size > 1), None)
-    figure, (axes, *beside) = new_figure(1 + heated + (profiled is not None))
+    figure, (axes, *beside) = new_figure(
+        1 + heated + (profiled is not None), polar=abscissa == DIRECTION
+    )
     levels = {s.sampling["level"] for s, r in zip(scenes, results, strict=True) if r.band}
     tints = draw_friction(
         axes,
@@ -112,9 +115,9 @@ def _files(scenes: Sequence[Scene]) -> list[str]:
 
 
 def _names(scenes: Sequence[Scene]) -> list[str]:
-    """What tells scenes apart: their files, and temperatures where a file has several."""
+    """What tells scenes apart: their files, and places in the lists of one that has several."""
     paths = [scene.path for scene in scenes]
-    at = [s.temperature_text if paths.count(s.path) > 1 else "" for s in scenes]
+    at = [s.place_text if paths.count(s.path) > 1 else "" for s in scenes]
     return [", ".join(filter(None, one)) for one in zip(_files(scenes), at, strict=True)]
 
 

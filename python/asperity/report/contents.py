@@ -18,7 +18,7 @@ from asperity.report.digests import Source
 from asperity.report.errors import Told, errors_of, solved_contacts
 from asperity.report.texts import number_text, printable
 from asperity.scene.model import Scene, SceneFriction
-from asperity.scene.results import scene_inputs, table_of
+from asperity.scene.results import notes_of_all, scene_inputs, table_of
 
 MOST_ROWS = 400  # of a table on the page; the CSV beside it has all
 _COLUMNS = {
@@ -31,6 +31,8 @@ _COLUMNS = {
     "error_estimate": "numerical error",
     "hot_temperature_k": "T(q1) [K]",
     "mu_cold": "mu without heat",
+    "direction_deg": "direction [°]",
+    "lateral": "across",
 }
 
 
@@ -44,7 +46,7 @@ class Fact(NamedTuple):
 
 @dataclass(frozen=True)
 class Result:
-    """One scene at one temperature."""
+    """One scene at one temperature, in all of its directions."""
 
     heading: str  # empty where a file has one temperature
     of: str
@@ -58,21 +60,27 @@ class Result:
 
 def results_of(scenes: Sequence[Scene], results: Sequence[SceneFriction]) -> list[Result]:
     """The texts of a file's results, one for each of its temperatures."""
-    several = len(scenes) > 1
-    return [_result(*one, several=several) for one in zip(scenes, results, strict=True)]
+    of = dict(zip(scenes, results, strict=True))
+    alike: dict[float | None, list[Scene]] = {}
+    for scene in scenes:
+        alike.setdefault(scene.temperature, []).append(scene)
+    several = len(alike) > 1
+    return [_result(ones, [of[one] for one in ones], several=several) for ones in alike.values()]
 
 
-def _result(scene: Scene, result: SceneFriction, *, several: bool) -> Result:
-    """The texts of one result; `several` temperatures are told apart."""
+def _result(scenes: Sequence[Scene], results: Sequence[SceneFriction], *, several: bool) -> Result:
+    """The texts of one temperature; `several` temperatures are told apart."""
+    most = max(range(len(scenes)), key=lambda i: float(results[i].mu.max()))
+    scene, result = scenes[most], results[most]
     at = f"{scene.temperature:.5g} K" if several else ""
-    head, rows = _rows(scene, result)
+    head, rows = _rows(scenes, results)
     shown, title = thinned(rows)
     return Result(
         heading=f"At {at}" if several else "",
         of=f" at {at}" if several else "",
         facts=_facts(scene, result),
         errors=errors_of(scene, result),
-        notes=html_items(result.notes),
+        notes=html_items(notes_of_all(scenes, results)),
         table_title=f"mu and its parts{f' at {at}' if several else ''}{title}",
         head=head,
         rows=shown,
@@ -87,15 +95,20 @@ def thinned(rows: Sequence[Any]) -> tuple[Sequence[Any], str]:
     return [rows[i] for i in kept], f", {MOST_ROWS} of {len(rows)} rows; the CSV has all"
 
 
-def _rows(scene: Scene, result: SceneFriction) -> tuple[list[str], list[list[str]]]:
-    table = table_of([scene], [result])
+def _rows(
+    scenes: Sequence[Scene], results: Sequence[SceneFriction]
+) -> tuple[list[str], list[list[str]]]:
+    table = table_of(scenes, results)
     columns: dict[str, Any] = {
         head: table.columns[name] for name, head in _COLUMNS.items() if name in table.columns
     }
-    if result.band is not None:
-        columns["mu from"], columns["mu to"] = (bound.ravel() for bound in result.band)
-    if np.isfinite(result.model_error).any():
-        columns["model error of hysteresis"] = result.model_error.ravel()
+    bands = [one.band for one in results if one.band is not None]
+    if len(bands) == len(results):
+        bounds = (np.concatenate([band[i].ravel() for band in bands]) for i in range(2))
+        columns["mu from"], columns["mu to"] = bounds
+    model_error = np.concatenate([one.model_error.ravel() for one in results])
+    if np.isfinite(model_error).any():
+        columns["model error of hysteresis"] = model_error
     cells = [[number_text(value) for value in column] for column in columns.values()]
     return list(columns), [list(line) for line in zip(*cells, strict=True)]
 
@@ -103,8 +116,11 @@ def _rows(scene: Scene, result: SceneFriction) -> tuple[list[str], list[list[str
 def _facts(scene: Scene, result: SceneFriction) -> list[Fact]:
     i, k = np.unravel_index(int(result.mu.argmax()), result.mu.shape)
     at = f"at {scene.velocity[k]:.3g} m/s, {pressure_text(float(scene.pressure[i]))}"
+    at += "" if scene.direction_deg is None else f", towards {scene.direction_deg:.4g}°"
     facts = [Fact("largest mu", f"{result.mu[i, k]:.4g}", at)]
     facts.append(Fact("of which hysteresis", f"{result.hysteresis[i, k]:.4g}", ""))
+    if scene.knows_directions:
+        facts.append(Fact("force across there, over load", f"{result.lateral[i, k]:.4g}", ""))
     area = float(result.contact_area[i, k])
     facts.append(Fact("contact there, A/A0", f"{100 * area:.3g} %", ""))
     if result.cold is not None and scene.temperature is not None:

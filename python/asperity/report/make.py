@@ -84,6 +84,7 @@ def report_page(
     scenes = [scene for file in loaded for scene in with_temperatures(file)]
     curves = [result for of_file in results for result in of_file]
     table = table_of(scenes, curves)
+    first = _first(scenes)
     environment = jinja.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja.StrictUndefined
     )
@@ -127,7 +128,12 @@ def report_page(
         ],
         file_names=names,
         differing=[[key, *values] for key, values in differing_inputs(loaded)],
-        pairs=[pair_texts(one) for one in compared(_variants(names, loaded), scenes, curves)],
+        pairs=[
+            pair_texts(one)
+            for one in compared(
+                _variants(names, loaded), [scenes[i] for i in first], [curves[i] for i in first]
+            )
+        ],
         versions=versions(),
     )
     return page, all_sources
@@ -138,12 +144,20 @@ def _without_folder(scene: Scene, folder: Path) -> Scene:
     return replace(scene, path=scene.path.relative_to(folder), others=others)
 
 
+def _first(scenes: Sequence[Scene]) -> list[int]:
+    """Of the directions of a file the first at each temperature: the tables have the others."""
+    first = {(s.path, s.temperature): i for i, s in reversed([*enumerate(scenes)])}
+    return sorted(first.values())
+
+
 def _variants(names: Sequence[str], loaded: Sequence[Scene]) -> list[str]:
     """A name for each file and temperature."""
     return [
-        f"{name} at {scene.temperature:.5g} K" if file.others else name
+        f"{name} at {scenes[i].temperature:.5g} K" if len(kept) > 1 else name
         for name, file in zip(names, loaded, strict=True)
-        for scene in with_temperatures(file)
+        for scenes in [with_temperatures(file)]
+        for kept in [_first(scenes)]
+        for i in kept
     ]
 
 

@@ -73,7 +73,9 @@ class Friction(Table):
     lateral : float or ndarray
         The force across the sliding over the load [-]: on the moving body it is
         -sigma0 (mu s + lateral n), s the direction of sliding and n that turned by 90 degrees from
-        x towards y. 0 where the spectrum is a mean over directions.
+        x towards y. 0 where the spectrum is a mean over directions, but with ScanContact.
+    direction : float or ndarray, or None
+        Of sliding, as given, broadcast [rad]. None where no contact of this kind depends on it.
     temperature : float or ndarray, or None
         As given, broadcast [K]; with heating that of the roughness at q1. None without.
     notes : tuple of Note
@@ -120,6 +122,7 @@ class Friction(Table):
     extrapolated_share: Any = column("1", "share of the hysteresis beyond the measured frequencies")
     model_error: Any = column("1", "relative error of mu seen in exact sliding contacts")
     lateral: Any = column("1", "force across the sliding over the load")
+    direction: Any = None
     temperature: Any = None
     notes: tuple[Note, ...] = ()
     wavenumber: Array | None = None
@@ -171,7 +174,7 @@ class Friction(Table):
         }
         variables = {
             name: Column(axes, getattr(self, name), *_said(name))
-            for name in (*COLUMNS, *HEAT)
+            for name in (*COLUMNS, *OPTIONAL)
             if name not in coordinates and getattr(self, name) is not None
         }
         if self.cold is not None:
@@ -192,15 +195,23 @@ class Friction(Table):
 
         draw_result(axes, self)
 
+    @property
+    def _is_polar(self) -> bool:
+        from asperity.draw.directions import DIRECTION
+        from asperity.draw.friction import abscissa_of
+
+        return abscissa_of([self], temperatures=False) == DIRECTION
+
 
 _SMALLEST = 1e-4
-SWEPT = ("pressure", "velocity", "temperature")
+SWEPT = ("pressure", "velocity", "direction", "temperature")
 HEAT = {
     "temperature": ("K", "temperature"),
     "macro_area": ("1", "share of the surface that is heated"),
     "gain": ("1", "gain of the heat"),
     "branches": ("1", "number of steady states"),
 }
+OPTIONAL = {"direction": ("rad", "direction of sliding, from x towards y"), **HEAT}
 COLUMNS = tuple(name for name, one in Friction.__dataclass_fields__.items() if one.metadata)
 
 
@@ -215,12 +226,18 @@ def small_friction_notes(mu: ArrayLike) -> tuple[Note, ...]:
     return (Note(*about, f"{said} unit", code="small-friction"),)
 
 
-def joined(parts: Sequence[Friction], shape: Shape) -> Friction:
-    """Return one result of the points of several, in a new shape; without contributions, notes."""
+def joined(
+    parts: Sequence[Friction], shape: Shape, places: NDArray[np.intp] | None = None
+) -> Friction:
+    """Return one result of the points of several, in a new shape; without contributions, notes.
+
+    `places` are those of the points, one part after another; by default they are in order.
+    """
     first = parts[0]
-    names = [name for name in (*COLUMNS, *HEAT) if getattr(first, name) is not None]
+    names = [name for name in (*COLUMNS, *OPTIONAL) if getattr(first, name) is not None]
+    order = slice(None) if places is None else np.argsort(places)
     columns = {
-        name: frozen(np.concatenate([np.ravel(getattr(part, name)) for part in parts]))
+        name: frozen(np.concatenate([np.ravel(getattr(part, name)) for part in parts])[order])
         for name in names
     }
     cold = None if first.cold is None else joined([_known(part.cold) for part in parts], shape)
@@ -229,8 +246,8 @@ def joined(parts: Sequence[Friction], shape: Shape) -> Friction:
 
 
 def _said(name: str) -> tuple[str, str]:
-    if name in HEAT:
-        return HEAT[name]
+    if name in OPTIONAL:
+        return OPTIONAL[name]
     metadata = Friction.__dataclass_fields__[name].metadata
     return metadata["unit"], metadata["meaning"]
 

@@ -1,4 +1,4 @@
-"""Temperatures of a scene, and what heat needs to start from."""
+"""Temperatures and directions of a scene, and what heat needs to start from."""
 
 from pathlib import Path
 from typing import Any
@@ -7,7 +7,7 @@ from asperity.base.celsius import ZERO_CELSIUS
 from asperity.io.fields import kelvin_or_celsius, refuse, sweep
 from asperity.scene.rubber import BuiltRubber
 
-MOST_TEMPERATURES = 1000  # of a list
+MOST_TEMPERATURES = MOST_DIRECTIONS = 1000  # of a list
 TEMPERATURE = kelvin_or_celsius(
     sweep,
     "temperature",
@@ -15,6 +15,9 @@ TEMPERATURE = kelvin_or_celsius(
     "A single number may stand in `[rubber]` instead; both are refused. A column at the end of the "
     "table. [How to change the temperature](../howto/temperature.md) has examples",
 )
+
+
+LISTED = (*TEMPERATURE, "direction_deg")  # of [conditions]: each entry is a scene of its own
 
 
 def temperatures_of(path: Path, conditions: dict[str, Any]) -> list[float | None]:
@@ -30,6 +33,17 @@ def temperatures_of(path: Path, conditions: dict[str, Any]) -> list[float | None
         problem = f"has {len(kelvin)} entries: must be at most {MOST_TEMPERATURES}"
         refuse(path, f"[conditions] {key}", problem)
     return [float(one) for one in kelvin]
+
+
+def directions_of(path: Path, conditions: dict[str, Any]) -> list[float | None]:
+    """Directions of sliding [degrees] of [conditions], taken out of it; None where it has none."""
+    values = conditions.pop("direction_deg", None)
+    if values is None:
+        return [None]
+    if len(values) > MOST_DIRECTIONS:
+        problem = f"has {len(values)} entries: must be at most {MOST_DIRECTIONS}"
+        refuse(path, "[conditions] direction_deg", problem)
+    return [float(one) for one in values]
 
 
 def check_heated(path: Path, temperature: float | None, rubber: BuiltRubber) -> None:

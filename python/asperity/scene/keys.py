@@ -2,7 +2,7 @@
 
 from asperity.base import quantities
 from asperity.friction import friction
-from asperity.io.fields import Field, fields_of, names_of, number, sweep
+from asperity.io.fields import Field, angles, fields_of, names_of, sweep
 from asperity.scene.heat import TEMPERATURE
 from asperity.uncertainty.band import friction_band
 
@@ -21,10 +21,13 @@ CONDITIONS = {
     **TEMPERATURE,
     **fields_of(friction, "poisson_ratio"),
     "direction_deg": Field(
-        number,
+        angles,
         "direction",
         meaning="of sliding, from x (a scan's second axis) towards y, on a surface that knows "
-        "directions. A column `lateral` at the end of the table has the force across over the load",
+        "directions and with `scan-contact`: a number, a list or "
+        "`{from = 0, to = 360, points = 73}`, in equal steps. A column `lateral` at the end of the "
+        "table has the force across over the load, one before it `direction_deg` where there are "
+        "several; the picture of several is polar",
     ),
 }
 SOLVER = fields_of(friction, "rtol", "form", "method")

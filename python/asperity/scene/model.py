@@ -1,8 +1,9 @@
 """A scene as objects of the core, and what is computed of it."""
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -88,7 +89,8 @@ class Scene:
     typed: Mapping[str, Any]  # what the file has, by the names that messages use
     temperature: float | None = None  # of [conditions] [K]
     heating: Heating | None = None
-    others: Sequence["Scene"] = ()  # the same at the further temperatures of a list
+    direction_deg: float | None = None  # of [conditions]
+    others: Sequence["Scene"] = ()  # the same at further temperatures and directions of lists
     tables: Mapping[str, Any] = field(default_factory=dict)  # that it was built of
 
     @property
@@ -141,6 +143,19 @@ class Scene:
         if self.temperature is None:
             return ""
         return temperature_text(self.temperature, celsius=self.in_celsius)
+
+    def toward(self, direction_deg: float | None) -> "Scene":
+        """The same in a direction of sliding."""
+        if direction_deg is None:
+            return self
+        options = {**self.options, "direction": math.radians(direction_deg)}
+        return replace(self, direction_deg=direction_deg, options=options)
+
+    @property
+    def place_text(self) -> str:
+        """Where of the lists of its file it is: its temperature and its direction."""
+        direction = "" if self.direction_deg is None else f"{self.direction_deg:.4g}°"
+        return ", ".join(filter(None, (self.temperature_text, direction)))
 
     @property
     def sources(self) -> list[Path]:

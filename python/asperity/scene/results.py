@@ -18,7 +18,7 @@ def no_bar(_: str) -> Progress:
 
 
 def with_temperatures(scene: Scene) -> list[Scene]:
-    """The scene, and the same at the further temperatures of its list."""
+    """The scene, and the same at the further temperatures and directions of its lists."""
     return [scene, *scene.others]
 
 
@@ -37,6 +37,9 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Table:
     asked = all(scene.asks_for_band for scene in scenes)
     at_temperatures = all(scene.temperature is not None for scene in scenes)
     directed = all(scene.knows_directions for scene in scenes)
+    turned = all(scene.direction_deg is not None for scene in scenes) and (
+        len({scene.direction_deg for scene in scenes}) > 1
+    )
     heated = all(scene.heating is not None for scene in scenes)
     files = {scene.path: scene for scene in reversed(scenes)}
     for scene, result in zip(scenes, curves, strict=True):
@@ -51,6 +54,8 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Table:
         if heated and result.cold is not None:
             values["hot_temperature_k"] = result.temperature.ravel()
             values["mu_cold"] = result.cold.mu.ravel()
+        if turned:
+            values["direction_deg"] = [scene.direction_deg] * pressure.size
         if directed:
             values["lateral"] = result.lateral.ravel()
         for name, column in {**names, **points, **values}.items():
@@ -89,8 +94,8 @@ def _name_of(its: Sequence[Scene], scenes: Sequence[Scene], alike: int) -> str:
     for file in dict.fromkeys(scene.path for scene in its):
         at = [scene for scene in its if scene.path == file]
         every = sum(scene.path == file for scene in scenes)
-        temperatures = [one.temperature_text for one in at] if len(at) < every else []
-        names.append(", ".join(([f"{file}"] if len(files) > 1 else []) + temperatures))
+        places = [one.place_text for one in at] if len(at) < every else []
+        names.append(", ".join(([f"{file}"] if len(files) > 1 else []) + places))
     name = ", ".join(filter(None, names))
     if alike == 0:
         return name

@@ -26,7 +26,7 @@ from asperity.io.toml import read_toml_text
 from asperity.io.typed import Typed, typed_in
 from asperity.rubber import stiffest
 from asperity.scene.celsius import celsius_in_errors
-from asperity.scene.heat import TEMPERATURE, check_heated, temperatures_of
+from asperity.scene.heat import LISTED, check_heated, directions_of, temperatures_of
 from asperity.scene.keys import CONDITIONS, POINTS, SOLVER, UNCERTAINTY
 from asperity.scene.model import Scene
 from asperity.scene.parts import (
@@ -141,8 +141,11 @@ def build_scene(
         refuse(path, "[conditions]", problem)
 
     surface = builders.surface(path, tables["surface"])
-    temperatures = temperatures_of(path, conditions)
+    temperatures, directions = temperatures_of(path, conditions), directions_of(path, conditions)
     if not for_friction:
+        if len(directions) > 1:
+            problem = "several are for asperity friction alone: must be one"
+            refuse(path, "[conditions] direction_deg", problem)
         if len(temperatures) > 1:
             problem = "several are for asperity friction and map alone: must be one"
             refuse(path, "[conditions] temperature_k", problem)
@@ -159,7 +162,7 @@ def build_scene(
         "rubber": rubber.values,
         "conditions": {
             **{key: tables["conditions"][key] for key in POINTS},
-            **{key: one for key, one in tables["conditions"].items() if key in TEMPERATURE},
+            **{key: tables["conditions"][key] for key in LISTED if key in tables["conditions"]},
             **conditions,
         },
     }
@@ -208,8 +211,11 @@ def build_scene(
         heating=heating,
         tables=tables,
     )
-    further = zip(rubbers[1:], temperatures[1:], strict=True)
-    others = [replace(first, built_rubber=one, temperature=t) for one, t in further]
+    first, *others = (
+        replace(first, built_rubber=one, temperature=t).toward(direction)
+        for one, t in zip(rubbers, temperatures, strict=True)
+        for direction in directions
+    )
     return replace(first, others=others)
 
 

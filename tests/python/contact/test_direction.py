@@ -340,3 +340,53 @@ def test_stronger_ridges_than_any_contact_had_are_told():
     assert known.model_error > 0
     assert np.isnan(beyond.model_error)
     assert "unknown-model-error" in [note.code for note in beyond.notes]
+
+
+def test_directions_broadcast_like_pressures():
+    spectrum = rows(0.4, 0.1)
+    pressure, angles = np.array([[1e5], [2e5]]), np.array([0.3, 1.1, 0.3, -0.5])
+    found = asperity.friction(spectrum, RUBBER, pressure=pressure, velocity=0.1, direction=angles)
+    assert found.mu.shape == (2, 4)
+    np.testing.assert_array_equal(found.direction, np.broadcast_to(angles, (2, 4)))
+    for i, p in enumerate(pressure[:, 0]):
+        for j, angle in enumerate(angles):
+            one = asperity.friction(spectrum, RUBBER, pressure=p, velocity=0.1, direction=angle)
+            assert (found.mu[i, j], found.lateral[i, j]) == (one.mu, one.lateral)
+            assert one.direction == angle
+    table = found.to_xarray()
+    assert table.mu.dims == ("pressure", "direction")
+    codes = [note.code for note in found.notes]
+    assert len(codes) == len(set(codes))
+    for more in ({"contributions": True}, {"gradients": True}):
+        with pytest.raises(InvalidInput, match="one number"):
+            asperity.friction(
+                spectrum, RUBBER, pressure=1e5, velocity=0.1, direction=angles, **more
+            )
+    with pytest.raises(InvalidInput, match="direction"):
+        asperity.friction(spectrum, RUBBER, pressure=1e5, velocity=0.1, direction=[0, np.nan])
+
+
+def test_the_picture_over_directions_is_polar():
+    pyplot = pytest.importorskip("matplotlib.pyplot")
+    angles = np.linspace(0, 2 * np.pi, 9)
+    found = asperity.friction(
+        rows(0.4), RUBBER, pressure=1e5, velocity=[[0.1], [0.2]], direction=angles
+    )
+    axes = found.plot()
+    assert axes.name == "polar"
+    mu, across = axes.lines[:2]
+    np.testing.assert_allclose(mu.get_xdata(), angles)
+    np.testing.assert_array_equal(mu.get_ydata(), found.mu[0])
+    np.testing.assert_array_equal(across.get_ydata(), np.abs(found.lateral[0]))
+    plain = pyplot.figure().add_subplot()
+    found.plot(plain)
+    np.testing.assert_allclose(plain.lines[0].get_xdata(), np.degrees(angles))
+    np.testing.assert_array_equal(plain.lines[1].get_ydata(), found.lateral[0])
+    over_velocity = asperity.friction(
+        rows(0.4), RUBBER, pressure=1e5, velocity=[0.1, 0.2, 0.3], direction=[[0.0], [1.0]]
+    )
+    assert [text.get_text() for text in over_velocity.plot().get_legend().get_texts()][:2] == [
+        "100 kPa, 0°",
+        "100 kPa, 57.3°",
+    ]
+    pyplot.close("all")

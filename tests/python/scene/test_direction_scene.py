@@ -93,3 +93,25 @@ def test_a_line_scan_has_no_directions(tmp_path: Path) -> None:
     surface = SCAN.replace("[2e-5, 1e-5]", "1e-5") + "directional = true\n"
     with pytest.raises(InvalidInput, match="line scan"):
         load_scene(written(tmp_path, surface + RUBBER + CONDITIONS))
+
+
+def test_a_list_of_directions_is_a_table_and_a_polar_picture(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    around = CONDITIONS + "direction_deg = {from = 0, to = 90, points = 4}\n"
+    path = written(tmp_path, RIDGES + RUBBER + around)
+    outputs = ["--output", str(tmp_path / "out.csv"), "--plot", str(tmp_path / "out.svg")]
+    assert main(["friction", str(path), *outputs]) == 0
+    lines = (tmp_path / "out.csv").read_text().splitlines()
+    head, *rows = [line.split(",") for line in lines if not line.startswith("#")]
+    assert head[-2:] == ["direction_deg", "lateral"]
+    scene = load_scene(path, for_friction=True)
+    scenes = [scene, *scene.others]
+    assert [one.direction_deg for one in scenes] == [0, 30, 60, 90]
+    directions = np.array([float(row[-2]) for row in rows])
+    mu = np.array([float(row[head.index("mu")]) for row in rows])
+    for one in scenes:
+        np.testing.assert_array_equal(
+            mu[directions == one.direction_deg], one.friction().mu.ravel()
+        )
+    with pytest.raises(InvalidInput, match="direction_deg"):
+        load_scene(path)

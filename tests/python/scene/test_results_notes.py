@@ -15,7 +15,7 @@ def note(text: str) -> Note:
 def told(*said: tuple[str, str, list[str], list[str]]) -> list[str]:
     """What is told of scenes, each a file, a temperature, notes of its inputs and of its curve."""
     scenes = [
-        SimpleNamespace(path=Path(file), notes=[*map(note, inputs)], temperature_text=at)
+        SimpleNamespace(path=Path(file), notes=[*map(note, inputs)], place_text=at)
         for file, at, inputs, _ in said
     ]
     curves = [SimpleNamespace(notes=[*map(note, [*one, *more])]) for _, _, one, more in said]
