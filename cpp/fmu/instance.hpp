@@ -22,8 +22,8 @@ inline void to_bytes(const State& state, void* bytes) {
   std::vector<double> numbers{static_cast<double>(state.points.size()), state.time, state.a_T, state.clamp ? 1.0 : 0.0,
                               state.memory ? 1.0 : 0.0};
   for (const Point& point : state.points)
-    numbers.insert(numbers.end(),
-                   {point.pressure, point.velocity, point.temperature, point.distance, point.sign, point.reset});
+    numbers.insert(numbers.end(), {point.pressure, point.velocity, point.temperature, point.distance, point.sign,
+                                   point.reset, point.direction});
   std::memcpy(bytes, numbers.data(), numbers.size() * sizeof(double));
 }
 
@@ -39,7 +39,7 @@ inline bool from_bytes(const void* bytes, std::size_t size, State& state) {
   state.clamp = *next++ != 0;
   state.memory = *next++ != 0;
   for (Point& point : state.points) {
-    point = {next[0], next[1], next[2], next[3], next[4], next[5]};
+    point = {next[0], next[1], next[2], next[3], next[4], next[5], next[6]};
     next += numbers_of_a_point;
   }
   return true;
@@ -157,10 +157,11 @@ struct Instance {
   /// Adds seed times d output / d input.
   [[nodiscard]] Told add_slope(std::uint32_t output, std::uint32_t input, std::size_t point, double seed,
                                double& sum) const {
-    if (!is_real_output(output) ||
-        !(input == pressure || input == velocity || (input == temperature && model->has(input))))
+    if (!is_real_output(output) || !(input == pressure || input == velocity ||
+                                     ((input == temperature || input == direction) && model->has(input))))
       return error("there is no derivative of value reference " + std::to_string(output) + " by " +
-                   std::to_string(input) + ": must be of a real output by pressure, velocity or temperature");
+                   std::to_string(input) +
+                   ": must be of a real output by pressure, velocity, temperature or direction");
     sum += seed * model->slope(output, input, point);
     return Told::ok;
   }

@@ -30,6 +30,7 @@ enum Variable : std::uint32_t {
   velocity = 2,
   temperature = 3,
   reset = 4,
+  direction = 5,
   mu = 8,
   mu_hysteresis = 9,
   mu_adhesion = 10,
@@ -39,25 +40,29 @@ enum Variable : std::uint32_t {
   dmu_dlnv = 14,
   inside = 15,
   slid_distance = 16,
+  lateral = 17,
+  lateral_traction = 18,
   a_T = 24,
   max_error = 25,
   clamp = 26,
   memory = 27,
 };
-constexpr std::uint32_t stride = 32, first_output = mu, last_output = inside;
+constexpr std::uint32_t stride = 32, first_output = mu, last_output = lateral_traction;
 
 inline bool is_of_a_point(std::uint32_t variable) {
-  return (variable >= pressure && variable <= reset) || (variable >= first_output && variable <= slid_distance);
+  return (variable >= pressure && variable <= direction) || (variable >= first_output && variable <= last_output);
 }
-inline bool is_real_output(std::uint32_t variable) { return variable >= first_output && variable < inside; }
+inline bool is_real_output(std::uint32_t variable) {
+  return (variable >= first_output && variable < inside) || variable == lateral || variable == lateral_traction;
+}
 
 /// Numbers alone, since they are written as such.
 struct Point {
   double pressure = 0, velocity = 0, temperature = 0;
   double distance = 0, sign = 0;  // slid since rest [m], and which way
-  double reset = 0;
+  double reset = 0, direction = 0;
 };
-constexpr std::size_t numbers_of_a_point = 6;
+constexpr std::size_t numbers_of_a_point = 7;
 
 /// Empty where it cannot be read. Streams would make the FMU three times as large.
 inline std::string read_file(const std::filesystem::path& path) {
@@ -147,6 +152,8 @@ class Model {
   [[nodiscard]] bool has(std::uint32_t variable) const {
     const asperity::FrictionMapInfo& info = map_.info();
     if (variable == temperature) return info.temperatures > 1;
+    if (variable == direction) return info.turns;
+    if (variable == lateral || variable == lateral_traction) return info.directional;
     if (variable == reset || variable == slid_distance || variable == memory) return info.heat;
     return variable != a_T || !info.heat;
   }
@@ -184,6 +191,9 @@ class Model {
       case temperature:
         state_.points[point].temperature = value;
         break;
+      case direction:
+        state_.points[point].direction = value;
+        break;
       case a_T:
         state_.a_T = value;
         found_.assign(points(), {});
@@ -211,6 +221,9 @@ class Model {
         return Told::ok;
       case temperature:
         value = state_.points[point].temperature;
+        return Told::ok;
+      case direction:
+        value = state_.points[point].direction;
         return Told::ok;
       case slid_distance:
         value = state_.points[point].distance;
@@ -245,7 +258,7 @@ class Model {
   }
 
   /// d output / d input of a point: in closed form for mu and traction over pressure and
-  /// velocity, else by differences over 2e-5 of ln(input) inside of the box. NaN outside.
+  /// velocity, else by differences over 2e-5 of ln(input), or of the direction, inside of the box. NaN outside.
   [[nodiscard]] double slope(std::uint32_t output, std::uint32_t input, std::size_t point) const {
     const Point at = state_.points[point];
     const Found here = look_up(at);
@@ -258,11 +271,14 @@ class Model {
     if (output == traction && input == velocity) return sign * at.pressure * value(here, dmu_dlnv) / at.velocity;
     double x[2], f[2];
     for (int side = 0; side < 2; ++side) {
-      const double factor = std::exp(side == 0 ? -1e-5 : 1e-5);
+      const double step = side == 0 ? -1e-5 : 1e-5;
       Point moved = at;
-      double& changed = input == pressure ? moved.pressure : input == velocity ? moved.velocity : moved.temperature;
+      double& changed = input == pressure      ? moved.pressure
+                        : input == velocity    ? moved.velocity
+                        : input == temperature ? moved.temperature
+                                               : moved.direction;
       const double before = changed;
-      changed = before * factor;
+      changed = input == direction ? before + step : before * std::exp(step);
       Found found = look_up(moved);
       x[side] = changed;
       if (value(found, inside) != 1) {
@@ -299,10 +315,14 @@ class Model {
     heat.a_T = state_.a_T;
     if (map_.info().temperatures > 1) heat.background = at.temperature;
     if (map_.info().heat && state_.memory) heat.distance = at.distance;
+    heat.direction = at.direction;
     const Map::Status status = map_.at(at.pressure, at.velocity, found, outside, heat);
     const double pull = map_.traction(at.pressure, at.velocity, outside, heat);
+    const double inside_box = status == Map::Status::ok ? 1 : 0, slid = at.distance;
+    const double sign = at.velocity < 0 ? -1 : 1;
+    const double across = at.pressure <= 0 || at.velocity == 0 ? 0 : sign * found.lateral * at.pressure;
     return {{found.mu, found.hysteresis, found.adhesion, found.contact_area, pull, found.dmu_dlnp, found.dmu_dlnv,
-             status == Map::Status::ok ? 1.0 : 0.0},
+             inside_box, slid, found.lateral, across},
             true};
   }
 

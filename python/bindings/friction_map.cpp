@@ -51,11 +51,16 @@ struct Points {
   std::size_t size;
 
   Points(const Array& p, const Array& v, const Array& a_T, const std::optional<Array>& background,
-         const std::optional<Array>& distance)
-      : columns{span_of(p), span_of(v), span_of(a_T), background ? span_of(*background) : std::span<const double>{},
-                distance ? span_of(*distance) : std::span<const double>{}},
+         const std::optional<Array>& distance, const std::optional<Array>& direction)
+      : columns{span_of(p),
+                span_of(v),
+                span_of(a_T),
+                background ? span_of(*background) : std::span<const double>{},
+                distance ? span_of(*distance) : std::span<const double>{},
+                direction ? span_of(*direction) : std::span<const double>{}},
         size(0) {
-    for (const auto& column : {columns.pressure, columns.velocity, columns.a_T, columns.background, columns.distance})
+    for (const auto& column :
+         {columns.pressure, columns.velocity, columns.a_T, columns.background, columns.distance, columns.direction})
       size = std::max(size, column.size());
   }
   [[nodiscard]] static double of(std::span<const double> column, std::size_t i) {
@@ -67,6 +72,7 @@ struct Points {
     MapTemperature result{of(columns.a_T, i), shifts_adhesion};
     if (!columns.background.empty()) result.background = of(columns.background, i);
     if (!columns.distance.empty()) result.distance = of(columns.distance, i);
+    if (!columns.direction.empty()) result.direction = of(columns.direction, i);
     return result;
   }
 };
@@ -74,9 +80,9 @@ struct Points {
 /// (one number at each point, the first point without a value or how many points there are).
 template <MapQuantity quantity>
 py::tuple column_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
-                    const std::optional<Array>& background, const std::optional<Array>& distance, bool shifts_adhesion,
-                    int outside) {
-  const Points points(p, v, a_T, background, distance);
+                    const std::optional<Array>& background, const std::optional<Array>& distance,
+                    const std::optional<Array>& direction, bool shifts_adhesion, int outside) {
+  const Points points(p, v, a_T, background, distance, direction);
   // not cleared: of 1e8 points that takes a second in which no signal is heeded
   py::array_t<double> found(static_cast<py::ssize_t>(points.size));
   const std::span<double> to(found.mutable_data(), points.size);
@@ -87,9 +93,9 @@ py::tuple column_of(const FrictionMap& map, const Array& p, const Array& v, cons
 
 /// (dmu_dlnp, dmu_dlnv: a row each; the first point without them).
 py::tuple slopes_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
-                    const std::optional<Array>& background, const std::optional<Array>& distance, bool shifts_adhesion,
-                    int outside) {
-  const Points points(p, v, a_T, background, distance);
+                    const std::optional<Array>& background, const std::optional<Array>& distance,
+                    const std::optional<Array>& direction, bool shifts_adhesion, int outside) {
+  const Points points(p, v, a_T, background, distance, direction);
   const std::size_t n = points.size;
   py::array_t<double> found({std::size_t{2}, n});
   const std::span<double> to(found.mutable_data(), 2 * n);
@@ -117,16 +123,16 @@ py::tuple rows_of(const Points& points, const Numbers& numbers) {
   return py::make_tuple(found, first);
 }
 
-/// (mu, hysteresis, adhesion, area, dmu_dlnp, dmu_dlnv: a row each; the first point without a value).
+/// (mu, hysteresis, adhesion, area, dmu_dlnp, dmu_dlnv, lateral: a row each; the first point without a value).
 py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
-                    const std::optional<Array>& background, const std::optional<Array>& distance, bool shifts_adhesion,
-                    int outside) {
-  const Points points(p, v, a_T, background, distance);
-  return rows_of<6>(points, [&](std::size_t i) {
+                    const std::optional<Array>& background, const std::optional<Array>& distance,
+                    const std::optional<Array>& direction, bool shifts_adhesion, int outside) {
+  const Points points(p, v, a_T, background, distance, direction);
+  return rows_of<7>(points, [&](std::size_t i) {
     MapPoint at;
     map.at(points.pressure(i), points.velocity(i), at, static_cast<Outside>(outside),
            points.temperature(i, shifts_adhesion));
-    return std::array{at.mu, at.hysteresis, at.adhesion, at.contact_area, at.dmu_dlnp, at.dmu_dlnv};
+    return std::array{at.mu, at.hysteresis, at.adhesion, at.contact_area, at.dmu_dlnp, at.dmu_dlnv, at.lateral};
   });
 }
 
@@ -134,7 +140,7 @@ py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, cons
 py::tuple sliding_length_of(const FrictionMap& map, const Array& v, const std::optional<Array>& background,
                             int outside) {
   const double one = 1;
-  Points points(v, v, v, background, {});
+  Points points(v, v, v, background, {}, {});
   points.columns.a_T = {&one, 1};
   return rows_of<1>(points, [&](std::size_t i) {
     return std::array{
@@ -156,6 +162,8 @@ py::dict info_of(const FrictionMap& map) {
   info["text"] = py::bytes(i.text);
   info["temperature"] = i.heat ? py::object(py::make_tuple(i.temperature[0], i.temperature[1])) : py::none();
   info["temperatures"] = i.temperatures;
+  info["directional"] = i.directional;
+  info["turns"] = i.turns;
   info["memory_error"] = i.heat ? py::object(py::float_(i.memory_error)) : py::none();
   info["adhesion"] = py::make_tuple(i.shear_stress, i.reference_velocity, i.width);
   return info;
@@ -172,6 +180,7 @@ void bind_friction_map(py::module_& m) {
       .def("adhesion", &column_of<MapQuantity::adhesion>)
       .def("contact_area", &column_of<MapQuantity::contact_area>)
       .def("traction", &column_of<MapQuantity::traction>)
+      .def("lateral", &column_of<MapQuantity::lateral>)
       .def("slopes", &slopes_of)
       .def("mu_at",
            [](const FrictionMap& map, double p, double v) {
@@ -183,10 +192,10 @@ void bind_friction_map(py::module_& m) {
       .def("points", &points_of)
       .def("sliding_length", &sliding_length_of)
       .def("status", [](const FrictionMap& map, double p, double v, double a_T, double background, double distance,
-                        bool shifts_adhesion, int outside) {
+                        double direction, bool shifts_adhesion, int outside) {
         MapPoint at;
         return static_cast<int>(
-            map.at(p, v, at, static_cast<Outside>(outside), {a_T, shifts_adhesion, background, distance}));
+            map.at(p, v, at, static_cast<Outside>(outside), {a_T, shifts_adhesion, background, distance, direction}));
       });
   m.def("build_friction_map", &build);
 }

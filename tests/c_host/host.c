@@ -32,6 +32,9 @@ int main(int count, char** arguments) {
   /* second order in h, and rounding over it: both below 1e-7 */
   check(fabs((above - below) / (2 * h) - out[4]) < 1e-6, "d mu / d ln p");
   check(asperity_map_mu(map, p, -v, 1, 0) == out[0], "even in the velocity");
+  double toward[7];
+  check(asperity_map_toward(map, p, v, 1, 0.5, 0, toward) == 0 && toward[0] == out[0] && toward[6] == 0,
+        "the same in every direction where the map knows none");
 
   const double pressures[] = {p, 1, p}, velocities[] = {v, v, -v};
   double many[3];

@@ -30,7 +30,9 @@ struct MapRequest {
 /// bicubic cells, split where they are off by more than rtol / 2 (relative, the solver's own estimate included) on
 /// lattices of 5 x 5 or on random points unseen before, 12 a cell; `max_error` is twice the largest error left on
 /// either. OutOfRange where the rubber is not known, InvalidInput where there is no contact in a part of the box,
-/// NotConverged with what was reached where 100,000 cells are too few.
+/// NotConverged with what was reached where 100,000 cells are too few. On a directional spectrum cells are cubics
+/// between as many directions as rtol asks for, counted from that of `model`, and the file holds lateral / mu_H beside
+/// them to the same rtol; with a ScanContact the map has the one direction of `model`.
 ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber,
                                                               const ContactModel& model,
                                                               const std::optional<Adhesion>& adhesion,
@@ -51,10 +53,10 @@ ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& sp
                                                               std::array<double, 2> temperature,
                                                               const MapRequest& request);
 
-/// Points for `look_up`, each column as long as the result, or of one entry for all; the last two, of maps with heat,
-/// may be empty where there is one temperature, and for what slid long ago.
+/// Points for `look_up`, each column as long as the result, or of one entry for all. Background and distance, of maps
+/// with heat, may be empty where there is one temperature, and for what slid long ago, and so may the direction [rad].
 struct MapColumns {
-  std::span<const double> pressure, velocity, a_T, background = {}, distance = {};
+  std::span<const double> pressure, velocity, a_T, background = {}, distance = {}, direction = {};
 };
 
 /// FrictionMap::mu at many points, with this machine's vector units; equal to it to 1e-14. Gives the number of the
@@ -63,7 +65,7 @@ ASPERITY_EXPORT std::size_t look_up(const FrictionMap& map, const MapColumns& po
                                     bool shifts_adhesion, std::span<double> mu);
 
 /// A number of MapPoint, or FrictionMap::traction [Pa].
-enum class MapQuantity { mu, hysteresis, adhesion, contact_area, traction };
+enum class MapQuantity { mu, hysteresis, adhesion, contact_area, traction, lateral };
 
 /// The same of another number than mu.
 ASPERITY_EXPORT std::size_t look_up(MapQuantity quantity, const FrictionMap& map, const MapColumns& points,

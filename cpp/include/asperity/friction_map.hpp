@@ -32,6 +32,12 @@
 // B. N. J. Persson, J. Phys.: Condens. Matter 18, 7789 (2006); arXiv:1007.2713. s0(v, T0) is that at the middle of the
 // box's pressures (geometric), of which it hardly depends.
 //
+// A map of a surface with a lay knows directions: a look-up takes the angle of sliding, `direction` [rad], from x
+// towards y, of the axes that the map was made in, and gives the force across the sliding too, `lateral`: on the
+// moving body it is -sigma0 (mu s + lateral n), s the unit vector of sliding and n that turned by +90 degrees. Half a
+// turn changes neither. Its cells hold cubics in the angle, and beside it lies the map of lateral / mu_H.
+//   map.mu(2e5, 0.3, Outside::clamp, {.direction = 0.5});  map.lateral(2e5, 0.3, Outside::clamp, {.direction = 0.5});
+//
 // mu is even in v: mu(p, -v) = mu(p, v); the traction is odd, and 0 at v = 0 and where p <= 0, whatever the map's box.
 // Outside of the box, v = 0 and p <= 0 among it, the caller otherwise chooses (Outside): a status that names
 // what is outside, NaN, or the nearest point of the box, whose derivatives across the box's side are 0. Numbers that
@@ -44,19 +50,21 @@
 //    12  u32 version of this layout, 4; those before it were of no release
 //    16  u64 size of the file
 //    24  f64 pressure lo, hi [Pa], velocity lo, hi [m/s], T0 lo, hi [K]: the box. T0 is 0 without heat, lo = hi where
-//            the map is for a single one
+//            the map is for a single one. Of a map that knows directions, which has no heat, 0 and pi [rad] are in the
+//            place of T0, and angles in that of temperatures in all that follows; both are 0 where it is for one
 //    72  f64 rtol asked for; max_error: twice the largest relative error of mu_H and A/A0 on the points on which the
 //            map was certified, 12 a cell that it was not made from and a lattice; the largest on the points of the
 //            check that followed; relative error that s0 of this file makes in mu, which 99 % of points and distances
 //            keep, 0 without heat
 //   104  f64 tau_f0 [Pa] (0: no adhesion), v0 [m/s], c [-]
 //   128  u64 number of points of that check; how many were off by more than max_error; bytes of the map without heat
-//   152  u32 1 with hysteresis, 0 without (a rubber that loses nothing), and 2 more for a slanted map; n bands, from
+//   152  u32 1 with hysteresis, 0 without (a rubber that loses nothing), 2 more for a slanted map, and 4 more for one
+//            with forces across; n bands, from
 //            1 to 64; s nodes of s(x), 0 or from 2 on; m temperatures between which cells have polynomials, 1 where
 //            there is a single T0 or none; a columns, b rows of ln s0, from 2 on, b = 1 for a single T0, both 0
 //            without heat; g grids, from n on; e entries; c cells, from 1 on; t bytes of text
 //   192  f64 2 m: ln a_T, of the map without heat, and d ln a_T / dT0 at m equal steps from T0 lo to hi; cubic Hermite
-//            between them; none where m is 1
+//            between them; none where m is 1 or there is no heat
 //        f64 2 a b: ln s0 and its slope over x at a equal steps of x, cubic Hermite between them, for each of b equal
 //            steps of T0, linear between them
 //        f64 n + 1 values of z, rising: where bands begin, and the end
@@ -69,7 +77,8 @@
 //        c x (2 + 32 k) f64, k = 1 where m is 1, else 4 (m - 1): x, z of a corner, then 32 coefficients for each power
 //            0 to 3 of T0 - T_i on each step i of T0: of (x - x0)^i (z - z0)^j at 8 j + 2 i for ln mu_H, at
 //            8 j + 2 i + 1 for ln A/A0
-//        the map without heat of one with it, a whole file
+//        the map without heat of one with it, a whole file; of one with forces across that of lateral / mu_H, which
+//            stands in the place of ln mu_H there, beside zeros
 //        t   text, lines of UTF-8: what the map was made of
 //        zeros up to a multiple of 8 after the entries and after the text
 //        u32 CRC-32 (that of zip and PNG) of all before; u32 0
@@ -355,9 +364,12 @@ struct FrictionMapInfo {
   std::size_t cells = 0;
   std::string text;  // lines: what the map was made of
   bool heat = false;
-  std::array<double, 2> temperature{};  // T0 of a map with heat [K], equal ends where it is for one
+  std::array<double, 2> temperature{};  // T0 of a map with heat [K], equal ends where it is for one; of a map that
+                                        // takes the direction 0 and half a turn [rad]
   std::size_t temperatures = 0;         // at which, or shares of the way along a line, its cells have polynomials
   double memory_error = 0;              // relative, that s0 makes in mu while the rubber heats up, at 99 % of points
+  bool directional = false;             // there are forces across; off by max_error of mu_H + |lateral| at most
+  bool turns = false;                   // and look-ups take the direction of sliding
 };
 
 /// Another temperature than the one that the map was made for; of a map with heat that of the background, and how far
@@ -367,11 +379,13 @@ struct MapTemperature {
   bool shifts_adhesion = false;             // the adhesion too, as if v0 were v0 / a_T
   double background = 0;                    // T0 [K]; 0: the only one that the map has
   double distance = map_detail::long_slid;  // slid since rest [m]
+  double direction = 0;                     // of sliding [rad], of a map that knows directions; others ignore it
 };
 
 struct MapPoint {
   double mu, hysteresis, adhesion, contact_area;  // [-]
   double dmu_dlnp, dmu_dlnv;                      // d mu / d ln p, d mu / d ln |v|
+  double lateral;                                 // the force across over the load [-]
 };
 
 class FrictionMap {
@@ -424,7 +438,7 @@ class FrictionMap {
     const Where at = where(pressure, velocity, outside, temperature);
     if (at.cell == nullptr) {
       const double nan = std::numeric_limits<double>::quiet_NaN();
-      point = {nan, nan, nan, nan, nan, nan};
+      point = {nan, nan, nan, nan, nan, nan, nan};
       return at.status;
     }
     point = everything(at);
@@ -438,7 +452,8 @@ class FrictionMap {
                blend(point.adhesion, cold.adhesion),
                blend(point.contact_area, cold.contact_area),
                blend(point.dmu_dlnp, cold.dmu_dlnp),
-               blend(point.dmu_dlnv, cold.dmu_dlnv) + by_v};
+               blend(point.dmu_dlnv, cold.dmu_dlnv) + by_v,
+               0};
     }
     return at.status;
   }
@@ -459,6 +474,15 @@ class FrictionMap {
     if (pressure <= 0 || velocity == 0) return 0;
     const double size = mu(pressure, velocity, outside, temperature) * pressure;
     return velocity < 0 ? -size : size;
+  }
+
+  /// The force across the sliding over the load [-]: on the moving body -lateral p along n, the direction of sliding
+  /// turned by 90 degrees from x towards y. 0 where the map knows no directions.
+  [[nodiscard]] double lateral(double pressure, double velocity, Outside outside = Outside::nan,
+                               const MapTemperature& temperature = {}) const noexcept {
+    MapPoint point;
+    at(pressure, velocity, point, outside, temperature);
+    return point.lateral;
   }
 
   [[nodiscard]] const FrictionMapInfo& info() const noexcept { return info_; }
@@ -789,6 +813,7 @@ class FrictionMap {
     point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at)) : 0;
     point.contact_area = map_detail::exp(f[1]);
     point.mu = point.hysteresis + point.adhesion;
+    point.lateral = across_ ? point.hysteresis * across_->logarithms(across_place(at))[0] : 0;
     const double falling = -2 * width_ * (at.ln_v - ln_reference_);
     point.dmu_dlnp = at.free_p ? point.hysteresis * fz[0] + point.adhesion * (fz[1] - 1) : 0;
     point.dmu_dlnv = at.free_v ? point.hysteresis * fx[0] + point.adhesion * (fx[1] + falling) : 0;
@@ -931,6 +956,14 @@ class FrictionMap {
     return cold;
   }
 
+  [[nodiscard]] Where across_place(const Where& at) const noexcept {
+    Where across = at;
+    const double z = at.ln_p - across_->log_modulus_offset(at.x, across.slope);
+    across.cell = across_->cell_at(at.x, z, across.dx, across.dz);
+    if (across_->steps_ > 0) across_->set_step(at.background, across);
+    return across;
+  }
+
   /// ln mu_H and ln A/A0 of a cell at once; sums in pairs, so that the terms need not wait for each other.
   ASPERITY_MAP_INLINE static map_detail::Pair bicubic(const double* c, double x, double z) noexcept {
     using map_detail::pair;
@@ -991,7 +1024,8 @@ class FrictionMap {
   /// Whether the map takes it as it is.
   [[nodiscard]] bool is_usual(const MapTemperature& temperature) const noexcept {
     if (map_detail::bits(temperature.distance) > map_detail::bits(map_detail::long_slid)) return false;  // or below 0
-    if (!info_.heat) return temperature.background == 0;
+    if (map_detail::is_nan(temperature.direction)) return false;
+    if (!info_.heat) return temperature.background == 0 && steps_ == 0;
     const bool only = steps_ == 0 && temperature.background == 0;
     return (only || map_detail::within(temperature.background, info_.temperature)) && temperature.a_T == 1 &&
            !temperature.shifts_adhesion;
@@ -1000,13 +1034,21 @@ class FrictionMap {
   /// What `where` does for a point that is not plainly in the box; false where there is no value.
   bool settle(double& pressure, double& speed, double& shifted, Outside outside, const MapTemperature& temperature,
               Where& at) const noexcept {
+    const double turned = map_detail::from_bits(map_detail::bits(temperature.direction) & 0x7fffffffffffffff);
     const bool number = !map_detail::is_nan(temperature.background) && !map_detail::is_nan(temperature.distance) &&
-                        temperature.distance >= 0;
+                        map_detail::within(turned, {0, 1e300}) && temperature.distance >= 0;
     at.status = number ? Status::not_on_this_map : Status::not_a_number;
     if (!number || !has(temperature)) return false;
     at.status = Status::ok;
     if (!is_inside(pressure, shifted) && !hold(pressure, speed, shifted, outside, temperature.a_T, at)) return false;
+    if (info_.turns) turn(temperature.direction, at);
     return !info_.heat || warm(temperature.background, outside, at);
+  }
+
+  /// Finds the step of a direction, of which half a turn makes no other.
+  void turn(double direction, Where& at) const noexcept {
+    const double half = info_.temperature[1], rest = direction - half * std::floor(direction / half);
+    set_step(rest > 0 ? rest < half ? rest : half : 0, at);
   }
 
   /// Whether it is a temperature as the map takes it: a_T without heat, T0 with it.
@@ -1163,7 +1205,7 @@ class FrictionMap {
   double step_of_share_ = 0;               // of a slanted map
   std::vector<double> shift_;              // coefficients of ln a_T over T0
   std::vector<map_detail::Line> sliding_;  // of ln s0 over x and T0
-  std::shared_ptr<const FrictionMap> cold_;
+  std::shared_ptr<const FrictionMap> cold_, across_;
   std::vector<map_detail::Grid> grids_;
   std::vector<std::int32_t> entries_;
   std::vector<double> corners_;  // of cells: x, z
@@ -1256,10 +1298,12 @@ struct Head {
     for (std::uint32_t* const n : {&flags, &bands, &offsets, &nodes, &columns, &rows, &grids, &entries, &cells, &text})
       *n = in.u32();
     constexpr std::uint32_t most = 9999;
-    good = good && flags < 4 && bands > 0 && bands <= most_bands && offsets != 1 && grids >= bands && entries > 0 &&
+    good = good && flags < 8 && bands > 0 && bands <= most_bands && offsets != 1 && grids >= bands && entries > 0 &&
            cells > 0 && nodes > 0 && nodes <= most && columns <= most && rows <= most && cold < size;
     info.hysteresis = (flags & 1) != 0;
     info.heat = columns > 0;
+    info.turns = !info.heat && nodes > 1;
+    info.directional = (flags & 4) != 0;
     info.temperatures = info.heat ? nodes : 0;
     info.cells = cells;
     const bool law_fits = info.shear_stress == 0 || (info.shear_stress >= tiny && info.reference_velocity >= tiny);
@@ -1267,14 +1311,14 @@ struct Head {
            bytes() == size;
   }
 
-  [[nodiscard]] bool is_slanted() const noexcept { return flags >= 2; }
+  [[nodiscard]] bool is_slanted() const noexcept { return (flags & 2) != 0; }
   /// Numbers of a cell beside its corner.
   [[nodiscard]] std::size_t cell_size() const noexcept {
     return block_size * (nodes < 2 ? 1 : 4 * (std::size_t{nodes} - 1));
   }
   /// Numbers of ln a_T: of a law, or at nodes.
   [[nodiscard]] std::size_t shifts() const noexcept {
-    return is_slanted() ? 2 : nodes < 2 ? 0 : 2 * std::size_t{nodes};
+    return is_slanted() ? 2 : nodes < 2 || columns == 0 ? 0 : 2 * std::size_t{nodes};
   }
   /// Zeros behind the entries or the text.
   [[nodiscard]] static std::size_t padding(unsigned long long bytes) noexcept {
@@ -1288,9 +1332,13 @@ struct Head {
   }
   [[nodiscard]] bool heat_fits(const FrictionMapInfo& info) const noexcept {
     const auto [lo, hi] = info.temperature;
-    if (!info.heat) return hi == 0 && lo == 0 && info.memory_error == 0 && nodes == 1 && rows == 0 && cold == 0;
+    constexpr double half_turn = 3.141592653589793;
+    const bool has_inside = cold >= head_size + 8 && cold % 8 == 0;
+    if (!info.heat)
+      return lo == 0 && hi == (nodes > 1 ? half_turn : 0) && info.memory_error == 0 && rows == 0 && !is_slanted() &&
+             (info.directional ? has_inside : cold == 0);
     return lo >= 1 && (nodes == 1 ? lo == hi && rows == 1 : lo + 1e-3 <= hi && rows > 1) && columns > 1 &&
-           offsets == 0 && cold >= head_size + 8 && cold % 8 == 0;
+           offsets == 0 && has_inside && !info.directional;
   }
   [[nodiscard]] std::uint64_t bytes() const noexcept {
     const std::uint64_t numbers = shifts() + 2ull * columns * rows + bands + 1 + 2ull * offsets + 6ull * grids +
@@ -1368,15 +1416,17 @@ inline std::string FrictionMap::take(const unsigned char* bytes, std::size_t siz
     return "is damaged: its checksum is not that of its contents";
   map_detail::Head head;
   if (!head.read(in, info_, size)) return "is damaged: its head contradicts itself";
-  if (is_inside && info_.heat) return "has one too";
+  if (is_inside && head.cold > 0) return "has one too";
   is_slanted_ = head.is_slanted();
   if (!take_tables(in, head)) return "is damaged: its tables contradict each other";
-  if (info_.heat) {
-    auto cold = std::make_shared<FrictionMap>();
-    const auto cold_size = static_cast<std::size_t>(head.cold);
-    const std::string reason = cold->take(in.skip(cold_size), cold_size, true);
-    if (!reason.empty()) return "is damaged: its map without heat " + reason;
-    cold_ = std::move(cold);
+  if (head.cold > 0) {
+    auto inside = std::make_shared<FrictionMap>();
+    const auto inside_size = static_cast<std::size_t>(head.cold);
+    const std::string reason = inside->take(in.skip(inside_size), inside_size, true);
+    if (!reason.empty())
+      return std::string("is damaged: its map ") + (info_.heat ? "without heat " : "of forces across ") + reason;
+    if (info_.directional && inside->info_.temperature != info_.temperature) return "is damaged: its maps differ";
+    (info_.heat ? cold_ : across_) = std::move(inside);
   }
   info_.text.assign(reinterpret_cast<const char*>(in.skip(head.text)), head.text);
   return {};
@@ -1412,7 +1462,7 @@ inline bool FrictionMap::take_tables(map_detail::Reader& in, const map_detail::H
     steps_per_T_ = steps_ / kelvin;
     step_of_T_ = 1 / steps_per_T_;
     step_of_share_ = 1.0 / steps_;
-    if (!is_slanted_) shift_ = map_detail::cubics(shift_, head.nodes, step_of_T_);
+    if (info_.heat && !is_slanted_) shift_ = map_detail::cubics(shift_, head.nodes, step_of_T_);
     rows_per_T_ = (head.rows - 1) / kelvin;
   }
   if (info_.heat) {
@@ -1520,6 +1570,10 @@ void asperity_map_mu_at_points(const asperity_map* map, size_t n, const double* 
 /// the velocity is outside of the box, 3 where a number is NaN, 5 (and NaN) where a_T is not 1 on a map with heat.
 int asperity_map_at(const asperity_map* map, double pressure, double velocity, double a_T, int clamp, double out[6]);
 
+/// The same of a map that knows directions, at one of sliding [rad]; out[6] receives the force across over the load.
+int asperity_map_toward(const asperity_map* map, double pressure, double velocity, double a_T, double direction,
+                        int clamp, double out[7]);
+
 /// The same of a map with heat, at a temperature [K] of the background (0: its only one), a distance [m] slid since
 /// rest (1e300: long ago). NaN and 5 on a map without heat, 4 where the temperature is outside of the box.
 double asperity_map_hot_mu(const asperity_map* map, double pressure, double velocity, double temperature,
@@ -1564,12 +1618,12 @@ inline FrictionMap::Outside outside_of(int clamp) noexcept {
 }
 
 inline int numbers_at(const FrictionMap& map, double pressure, double velocity, const MapTemperature& temperature,
-                      int clamp, double out[6]) noexcept {
+                      int clamp, double* out, int n = 6) noexcept {
   MapPoint point;
   const auto status = map.at(pressure, velocity, point, outside_of(clamp), temperature);
-  const double values[] = {point.mu,           point.hysteresis, point.adhesion,
-                           point.contact_area, point.dmu_dlnp,   point.dmu_dlnv};
-  for (int i = 0; i < 6; ++i) out[i] = values[i];
+  const double values[] = {point.mu,       point.hysteresis, point.adhesion, point.contact_area,
+                           point.dmu_dlnp, point.dmu_dlnv,   point.lateral};
+  for (int i = 0; i < n; ++i) out[i] = values[i];
   return static_cast<int>(status);
 }
 
@@ -1591,6 +1645,13 @@ void asperity_map_mu_at_points(const asperity_map* map, size_t n, const double* 
 
 int asperity_map_at(const asperity_map* map, double pressure, double velocity, double a_T, int clamp, double out[6]) {
   return asperity::map_detail::numbers_at(map->map, pressure, velocity, {a_T, false}, clamp, out);
+}
+
+int asperity_map_toward(const asperity_map* map, double pressure, double velocity, double a_T, double direction,
+                        int clamp, double out[7]) {
+  using asperity::map_detail::long_slid;
+  return asperity::map_detail::numbers_at(map->map, pressure, velocity, {a_T, false, 0, long_slid, direction}, clamp,
+                                          out, 7);
 }
 
 double asperity_map_hot_mu(const asperity_map* map, double pressure, double velocity, double temperature,

@@ -99,11 +99,19 @@ std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhes
                                 const MapRequest& request, const WithHeat& with_heat = {}) {
   const unsigned threads = threads_of(request);
   const double sampled = request.checked == 0 ? 1 : sampling_share;
-  const double refining = with_heat ? sampled / 2 : sampled;
+  const double refining = with_heat || frame.directional() ? sampled / 2 : sampled;
   const RefinedMap refined = refine(frame, request.rtol, threads, part_of(request.progress, 0, refining));
   std::optional<MapHeatTables> heat;
   if (with_heat) heat = with_heat(refined.heights, part_of(request.progress, refining, sampled));
   MapCertificate certificate{.max_error = refined.max_error};
+  if (frame.directional()) {
+    const MapFrame across = frame.of_across();
+    const RefinedMap forces = refine(across, request.rtol, threads, part_of(request.progress, refining, sampled));
+    certificate.max_error = std::fmax(refined.max_error, forces.max_error);
+    MapRequest silent = request;
+    silent.text = {};
+    heat.emplace().cold = map_file(across, forces, {}, silent, {.max_error = forces.max_error});
+  }
   const auto file = [&] { return map_file(frame, refined, adhesion, request, certificate, heat ? &*heat : nullptr); };
   if (request.checked == 0) return file();
   check(frame, file(), request, threads, part_of(request.progress, sampled, 1), certificate);
@@ -141,7 +149,6 @@ std::array<double, 2> shifted_box(std::array<double, 2> velocity, const std::vec
 std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& given,
                                               const std::optional<Adhesion>& adhesion, const MapRequest& request) {
   check_request(request, adhesion);
-  refuse_directions(spectrum, "map");
   ContactModel model = given;
   if (const auto* const scan = std::get_if<ScanContact>(&given.correction))
     model.correction = scan->with_pressure_lattice();  // a map asks at many pressures, a few at a time

@@ -34,7 +34,9 @@ class Check {
       return errors;
     }
     in_parts(threads, n, [&](unsigned, std::size_t begin, std::size_t end) {
-      compare(frame_.sample(std::span(places_).subspan(begin, end - begin)), begin, errors);
+      const auto part = [&](const auto& of) { return std::span(of).subspan(begin, end - begin); };
+      compare(frame_.turns() ? frame_.sample_at(part(places_), part(temperature_), 1) : frame_.sample(part(places_)),
+              begin, errors);
     });
     return errors;
   }
@@ -43,9 +45,13 @@ class Check {
   void draw() {
     const auto [x_lo, x_hi] = frame_.x();
     const double y_lo = frame_.ln_pressure(0), y_hi = frame_.ln_pressure(1);
-    double x = 0;
+    double x = 0, angle = 0;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      if (i % together == 0) x = x_lo + random_() * (x_hi - x_lo);
+      if (i % together == 0) {
+        x = x_lo + random_() * (x_hi - x_lo);
+        if (frame_.turns()) angle = random_() * frame_.heights()[1];
+      }
+      temperature_[i] = angle;
       places_[i] = {x, y_lo + random_() * (y_hi - y_lo) - frame_.log_modulus_offset(x)};
     }
   }
@@ -67,16 +73,18 @@ class Check {
 
   void compare(const std::vector<MapSample>& truth, std::size_t begin, std::vector<double>& errors) const {
     for (std::size_t i = begin; i < begin + truth.size(); ++i) {
-      const auto& [of_solver, error] = truth[i - begin];
+      const auto& [of_solver, error, across] = truth[i - begin];
       const auto& [ln_hysteresis, ln_area] = of_solver;
       const double y = places_[i].z + frame_.log_modulus_offset(places_[i].x);
       MapPoint found;
-      map_.at(std::exp(y), std::exp(places_[i].x), found, FrictionMap::Outside::clamp,
-              {.background = map_.info().heat ? temperature_[i] : 0});
+      map_.at(
+          std::exp(y), std::exp(places_[i].x), found, FrictionMap::Outside::clamp,
+          {.background = map_.info().heat ? temperature_[i] : 0, .direction = frame_.turns() ? temperature_[i] : 0});
       errors[i] = std::fabs(found.contact_area / std::exp(ln_area) - 1);
       if (frame_.hysteresis())
         errors[i] = std::fmax(errors[i], std::fabs(found.hysteresis / std::exp(ln_hysteresis) - 1));
-      errors[i] += error;
+      const double force = (1 + std::fabs(across)) * std::exp(ln_hysteresis);
+      errors[i] = std::fmax(errors[i], std::fabs(found.lateral - across * std::exp(ln_hysteresis)) / force) + error;
     }
   }
 
@@ -84,7 +92,7 @@ class Check {
   const FrictionMap& map_;
   Random random_{20261120};
   std::vector<MapPlace> places_;
-  std::vector<double> temperature_;
+  std::vector<double> temperature_;  // or the direction
 };
 
 }  // namespace

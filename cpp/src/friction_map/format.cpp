@@ -135,13 +135,15 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
   out.u32(0x01020304);
   out.u32(map_detail::layout);
   out.u64(0);  // the size, when it is known
-  for (const auto& box : {request.pressure, request.velocity, frame.temperature()})
+  const std::array<double, 2> third = frame.turns() ? frame.heights() : frame.temperature();
+  for (const auto& box : {request.pressure, request.velocity, third})
     for (const double side : box) out.f64(side);
   for (const double x : {request.rtol, certificate.max_error, certificate.largest_checked_error, warm.sliding.error,
                          law.shear_stress, law.reference_velocity, law.width})
     out.f64(x);
   for (const std::size_t n : {certificate.checked, certificate.exceeded, warm.cold.size()}) out.u64(n);
-  const std::size_t flags = (frame.hysteresis() ? 1 : 0) + (frame.slant() ? 2 : 0);
+  const bool has_across = frame.hysteresis() && frame.directional();
+  const std::size_t flags = (frame.hysteresis() ? 1 : 0) + (frame.slant() ? 2 : 0) + (has_across ? 4 : 0);
   const auto cells = static_cast<std::size_t>(index.cells);
   for (const std::size_t n :
        {flags, std::size_t{tree.bands()}, frame.log_modulus_nodes().size() / 2, refined.heights.size(),

@@ -16,9 +16,9 @@ struct MapCertificate {
   std::size_t checked = 0, exceeded = 0;
 };
 
-/// What the file of a map with heat has beside its cells.
+/// What the file of a map with heat, or of one that knows directions, has beside its cells.
 struct MapHeatTables {
-  std::vector<unsigned char> cold;  // the file of the map without heat
+  std::vector<unsigned char> cold;  // the file of the map without heat, or of forces across
   std::vector<double>
       shift;  // ln a_T of that map and its slope, at each of several nodes of T0; or a and b of slant.hpp
   SlidingTable sliding;

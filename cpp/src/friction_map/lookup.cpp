@@ -122,7 +122,7 @@ class FrictionMapBatch {
   /// A number at points [begin, begin + n), at most a block; how many come before the first without a value.
   std::size_t find(MapQuantity quantity, const MapColumns& points, std::size_t begin, std::size_t n, double* result) {
     const Block at = take(points, begin, n);
-    if (!at.within)
+    if (!at.within || quantity == MapQuantity::lateral)
       return one_by_one(at, n, [&](std::size_t i, const MapTemperature& temperature) {
         return result[i] = value(quantity, at.pressure[i], at.velocity[i], temperature);
       });
@@ -162,7 +162,7 @@ class FrictionMapBatch {
 
  private:
   struct Block {
-    const double *pressure, *velocity, *a_T, *background, *distance;
+    const double *pressure, *velocity, *a_T, *background, *distance, *direction;
     const double* ln_v;  // as the adhesion takes it
     bool within;         // all of them in the box, with temperatures that the map takes: x_ and ln_p_ are there
   };
@@ -173,9 +173,10 @@ class FrictionMapBatch {
              column(points.a_T, begin, n, a_T_),
              optional(points.background, 0, begin, n, background_),
              optional(points.distance, map_detail::long_slid, begin, n, distance_),
+             optional(points.direction, 0, begin, n, direction_),
              x_,
              false};
-    at.within = !map_.cells_.empty() && plain(points, at.background, at.distance, n) &&
+    at.within = !map_.cells_.empty() && plain(points, at.background, at.distance, at.direction, n) &&
                 loops_.prepare(map_.info_, at.pressure, at.velocity, at.a_T, n, speed_, x_);
     if (!at.within) return at;
     loops_.logarithms_of_both(x_, at.pressure, x_, ln_p_, n);
@@ -191,7 +192,8 @@ class FrictionMapBatch {
   std::size_t one_by_one(const Block& at, std::size_t n, Act act) {
     std::size_t good = n;
     for (std::size_t i = n; i-- > 0;)
-      if (std::isnan(act(i, {at.a_T[i], shifts_adhesion_, at.background[i], at.distance[i]}))) good = i;
+      if (std::isnan(act(i, {at.a_T[i], shifts_adhesion_, at.background[i], at.distance[i], at.direction[i]})))
+        good = i;
     return good;
   }
 
@@ -199,6 +201,7 @@ class FrictionMapBatch {
                              const MapTemperature& temperature) const {
     if (quantity == MapQuantity::mu) return map_.mu(pressure, velocity, outside_, temperature);
     if (quantity == MapQuantity::traction) return map_.traction(pressure, velocity, outside_, temperature);
+    if (quantity == MapQuantity::lateral) return map_.lateral(pressure, velocity, outside_, temperature);
     MapPoint found;
     map_.at(pressure, velocity, found, outside_, temperature);
     if (quantity == MapQuantity::hysteresis) return found.hysteresis;
@@ -208,11 +211,13 @@ class FrictionMapBatch {
   static bool is_one(std::span<const double> a_T) { return a_T.size() == 1 && a_T[0] == 1; }
 
   /// Whether a map takes these temperatures and distances; finds the steps of the temperature.
-  bool plain(const MapColumns& points, const double* background, const double* distance, std::size_t n) {
+  bool plain(const MapColumns& points, const double* background, const double* distance, const double* direction,
+             std::size_t n) {
     constexpr double any = std::numeric_limits<double>::infinity();
-    const auto entries = [n](std::span<const double> of) { return of.size() == 1 ? 1 : n; };
+    const auto entries = [n](std::span<const double> of) { return of.size() > 1 ? n : 1; };
     if (!points.distance.empty() && !loops_.all_within(distance, 0, any, entries(points.distance))) return false;
-    if (!map_.info_.heat) return points.background.empty();
+    if (!loops_.all_within(direction, -1e300, 1e300, entries(points.direction))) return false;
+    if (!map_.info_.heat) return points.background.empty() && map_.steps_ == 0;
     if (!is_one(points.a_T) || shifts_adhesion_) return false;
     const bool only = map_.steps_ == 0 && points.background.empty();
     const auto [lowest, highest] = map_.info_.temperature;
@@ -328,7 +333,7 @@ class FrictionMapBatch {
   const MapLoops& loops_;
   std::vector<map_detail::Line> at_shared_T0_;  // the cells' polynomials of a map of this T0, or none
   double shared_log_a_T_ = 0;
-  double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block];
+  double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block], direction_[block];
   double x_[block], speed_[block], ln_p_[block], z_[block];
   double hot_h_[block], hot_a_[block], cold_h_[block], cold_a_[block];
   LogarithmsOfBoth hot_{hot_h_, hot_a_}, cold_{cold_h_, cold_a_};
@@ -346,7 +351,8 @@ std::size_t in_blocks(const MapColumns& points, const char* name, std::size_t n,
        {std::pair{"pressure", points.pressure}, std::pair{"velocity", points.velocity}, std::pair{"a_T", points.a_T}})
     if (column.size() != 1) require_same_size(column_name, column.size(), name, n);
   for (const auto& [column_name, column] :
-       {std::pair{"background", points.background}, std::pair{"distance", points.distance}})
+       {std::pair{"background", points.background}, std::pair{"distance", points.distance},
+        std::pair{"direction", points.direction}})
     if (column.size() > 1) require_same_size(column_name, column.size(), name, n);
   std::size_t first_bad = n;
   for (std::size_t i = 0; i < n; i += block) {

@@ -20,7 +20,8 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
       model_(std::move(model)),
       rtol_(request.rtol),
       velocity_(request.velocity),
-      heat_(std::move(heat)) {
+      heat_(std::move(heat)),
+      first_direction_(model_.direction) {
   // a point with heat is a hundred times as dear as one without, and of measured moduli dearer the more is asked
   model_.rtol = std::clamp(request.rtol * 1e-2, 1e-12, heat_ ? 1e-4 : 1e-6);
   x_lo_ = std::log(velocity_[0]);
@@ -48,6 +49,9 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
   }
   const auto* prony = std::get_if<PronySeries>(&rubber_);
   hysteresis_ = prony == nullptr || !prony->moduli().empty();
+  const bool of_scan = std::holds_alternative<ScanContact>(model_.correction);
+  directional_ = hysteresis_ && !heat_ && (of_scan || is_directional(spectrum_));
+  turns_ = is_directional(spectrum_) && !of_scan && !heat_;  // of a scan every direction has contacts of its own
 }
 
 namespace {
@@ -93,6 +97,15 @@ std::vector<MapSample> MapFrame::sample(const ContactModel& model, const std::ve
 
 std::vector<MapSample> MapFrame::sample_at(std::span<const MapPlace> places, std::span<const double> height,
                                            unsigned threads) const {
+  if (turns_) {
+    std::vector<MapSample> result;
+    for (std::size_t i = 0, end = 0; i < places.size(); i = end) {
+      while (end < places.size() && height[end] == height[i]) ++end;
+      const std::vector<MapSample> found = at_height(height[i]).sample(places.subspan(i, end - i), threads);
+      result.insert(result.end(), found.begin(), found.end());
+    }
+    return result;
+  }
   if (!slant_) return sample_points(places, height, threads);
   std::vector<MapPlace> points;
   std::vector<double> temperature;
@@ -143,7 +156,9 @@ std::vector<MapSample> MapFrame::samples_of(const Friction& f, std::span<const d
                            value(f.velocity[i]) + ": " + name + " = " + show(found) +
                            ", whose logarithm cannot be mapped");
     const double error = !parts_error.empty() ? parts_error[i] : h > 0 ? f.error_estimate[i] / h : model_.rtol;
-    result.push_back({{hysteresis_ ? std::log(h) : 0, std::log(a)}, error});
+    const double across = h > 0 ? f.lateral[i] / h : 0;
+    result.push_back({of_across_ ? std::array{across, 0.0} : std::array{hysteresis_ ? std::log(h) : 0, std::log(a)},
+                      error * (of_across_ ? 1 + std::fabs(across) : 1), across});
   }
   return result;
 }
@@ -166,7 +181,7 @@ std::uint32_t MapFrame::band(double z) const {
 }
 
 std::vector<double> MapFrame::height_cuts() const {
-  if (slant_) return {0, 1};
+  if (slant_ || turns_) return {heights()[0], heights()[1]};
   const auto [lowest, highest] = heat_->range;
   std::vector<double> cuts{lowest};
   if (const auto* const table = std::get_if<ShiftTable>(heat_->shift))
@@ -177,7 +192,7 @@ std::vector<double> MapFrame::height_cuts() const {
 }
 
 double MapFrame::error_of_shift(std::span<const double> nodes) const {
-  if (slant_) return 0;
+  if (slant_ || turns_) return 0;
   const auto at = [&](double temperature) {
     const ShiftValue found = shift_at(*heat_->shift, temperature);
     return ValueAndSlope{std::numbers::ln10 * found.log10_a_T, std::numbers::ln10 * found.slope};
@@ -193,7 +208,17 @@ double MapFrame::error_of_shift(std::span<const double> nodes) const {
 
 MapFrame MapFrame::at_height(double height) const {
   MapFrame other = *this;
-  other.heat_->height = height;
+  if (turns_)
+    other.model_.direction = other.unshifted_.direction = first_direction_ + height;
+  else
+    other.heat_->height = height;
+  return other;
+}
+
+MapFrame MapFrame::of_across() const {
+  MapFrame other = *this;
+  other.of_across_ = true;
+  other.hysteresis_ = false;  // it is not divided by p_T
   return other;
 }
 

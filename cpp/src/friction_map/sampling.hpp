@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -38,6 +39,7 @@ inline double between(const std::array<double, 2>& sides, double share) {
 struct MapSample {
   std::array<double, 2> f;  // ln mu_H (0 without hysteresis), ln A/A0
   double error;             // of f, the solver's estimate
+  double across = 0;        // the force across over mu_H
 };
 
 /// Of a map with the heat that friction makes.
@@ -61,7 +63,16 @@ class MapFrame {
   /// The temperatures of the background that the map holds [K]; 0 without heat.
   [[nodiscard]] std::array<double, 2> temperature() const { return heat_ ? heat_->range : std::array<double, 2>{0, 0}; }
   /// The third coordinate, T0; or the share of the way along lines of constant v a_T, x being ln p and z ln(v a_T).
-  [[nodiscard]] std::array<double, 2> heights() const { return slant_ ? std::array<double, 2>{0, 1} : temperature(); }
+  /// Or the angle from the direction of the model, up to half a turn.
+  [[nodiscard]] std::array<double, 2> heights() const {
+    return slant_ ? std::array<double, 2>{0, 1} : turns_ ? std::array<double, 2>{0, std::numbers::pi} : temperature();
+  }
+  /// Whether the third coordinate is the direction of sliding.
+  [[nodiscard]] bool turns() const { return turns_; }
+  /// Whether there are forces across the sliding.
+  [[nodiscard]] bool directional() const { return directional_; }
+  /// The same of the force across over mu_H, beside zeros, in the place of the two functions.
+  [[nodiscard]] MapFrame of_across() const;
   [[nodiscard]] const std::optional<Slant>& slant() const { return slant_; }
   /// Those between which a_T is smooth: with the ends the rows of a table of shift factors.
   [[nodiscard]] std::vector<double> height_cuts() const;
@@ -103,7 +114,7 @@ class MapFrame {
   [[nodiscard]] MapFrame with_solver_rtol(double rtol) const;
 
   [[nodiscard]] std::vector<MapSample> sample(std::span<const MapPlace> places, unsigned threads = 1) const;
-  /// With heat, at a height for each.
+  /// At a height for each, where there are several.
   [[nodiscard]] std::vector<MapSample> sample_at(std::span<const MapPlace> places, std::span<const double> height,
                                                  unsigned threads) const;
   /// With heat, at ln v, ln p and a temperature [K] for each, whatever the coordinates are.
@@ -133,7 +144,8 @@ class MapFrame {
   LoadShift load_shift_;
   std::optional<MapHeat> heat_;
   std::optional<Slant> slant_;
-  bool hysteresis_ = true;
+  bool hysteresis_ = true, turns_ = false, directional_ = false, of_across_ = false;
+  double first_direction_;  // of the model [rad]
 };
 
 }  // namespace asperity

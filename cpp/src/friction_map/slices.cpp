@@ -1,5 +1,5 @@
-// Polynomials over the background's temperature, or along slanted lines, through patches of pressure and velocity at
-// Chebyshev's points of it.
+// Polynomials over the background's temperature, the direction of sliding, or along slanted lines, through patches of
+// pressure and velocity at Chebyshev's points of it.
 #include "friction_map/slices.hpp"
 
 #include <algorithm>
@@ -234,8 +234,8 @@ void MapSlices::choose_nodes() {
     const auto more = static_cast<std::size_t>(std::ceil(static_cast<double>(steps) * factor));
     if (more > most_steps)
       throw NotConverged(argument("rtol") + " = " + value(rtol_) + ": " + show(error, 3) + " was reached between " +
-                         std::to_string(steps + 1) + " temperatures from " + show(frame_.temperature()[0], 6) + " to " +
-                         show(frame_.temperature()[1], 6) + " K");
+                         std::to_string(steps + 1) + (frame_.turns() ? " directions" : " temperatures") + " from " +
+                         show(range_[0], 6) + " to " + show(range_[1], 6) + (frame_.turns() ? " rad" : " K"));
     steps = more;
   }
 }

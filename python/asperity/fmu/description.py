@@ -8,7 +8,13 @@ from asperity import _core
 from asperity.fmu.variables import TIME, Variable, scalars
 
 _DESCRIPTION = "Rubber friction over pressure and velocity, looked up in a certified map"
-_UNITS = {"Pa": {"kg": 1, "m": -1, "s": -2}, "m/s": {"m": 1, "s": -1}, "m": {"m": 1}, "K": {"K": 1}}
+_UNITS = {
+    "Pa": {"kg": 1, "m": -1, "s": -2},
+    "m/s": {"m": 1, "s": -1},
+    "m": {"m": 1},
+    "K": {"K": 1},
+    "rad": {"rad": 1},
+}
 _ABLE = {
     "canHandleVariableCommunicationStepSize": "true",
     "canNotUseMemoryManagementFunctions": "true",

@@ -40,6 +40,9 @@ def variables(friction_map: FrictionMap) -> tuple[Variable, ...]:
     if lowest < highest:
         told = "temperature of the background, T0"
         of_point.append(_input("temperature", 3, told, "K", (lowest + highest) / 2))
+    if friction_map.turns:
+        told = "of sliding, from the axis of the map towards the next; half a turn changes nothing"
+        of_point.append(_input("direction", 5, told, "rad", 0.0))
     outputs = [
         ("mu", 8, "friction coefficient, hysteresis and adhesion", None),
         ("mu_hysteresis", 9, "hysteretic part of mu", None),
@@ -49,6 +52,11 @@ def variables(friction_map: FrictionMap) -> tuple[Variable, ...]:
         ("dmu_dlnp", 13, "slope of mu over the logarithm of the pressure", None),
         ("dmu_dlnv", 14, "slope of mu over the logarithm of the speed", None),
     ]
+    if friction_map.directional:
+        outputs += [
+            ("lateral", 17, "force across the sliding over the load", None),
+            ("lateral_traction", 18, "shear stress across, with the sign of the velocity", "Pa"),
+        ]
     inputs = tuple(variable.name for variable in of_point)
     if heated:
         told = "true: sliding begins anew, cold"

@@ -43,6 +43,7 @@ def friction_map(
     temperature: float | tuple[float, float] | None = None,
     shift: TemperatureShift | None = None,
     heating: Heating | None = None,
+    direction: float = 0.0,
     progress: Callable[[float], object] | None = None,
 ) -> FrictionMap:
     """Build a map of the friction coefficient for simulators to `rtol`, and certify it.
@@ -85,6 +86,10 @@ def friction_map(
         so are GSL's methods. A measured master curve over a range takes minutes where `shift` is a
         law (`WLF`, or of `fit_wlf()` or `fit_arrhenius()`), and far more with shift factors:
         `progress` tells how far it is.
+    direction : float
+        The axis [rad], from x towards y, from which look-ups count their own direction: the map of
+        a spectrum that knows directions is for all of them. With a ScanContact, which has contacts
+        of its own in each, it is the one direction of the map.
     progress : callable, optional
         Called with the share of the work that is done, from 0 to 1, now and then.
 
@@ -121,7 +126,8 @@ def friction_map(
         raise refusal("progress", progress, "a function, or None")
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
     parts = surface._core, solid._core
-    model = contact_model(poisson_ratio, correction, form, 1e-6, method, strain_factors)
+    angle = number(direction, "direction")
+    model = contact_model(poisson_ratio, correction, form, 1e-6, method, strain_factors, angle)
     added = adhesion_core(adhesion)
     made_of: dict[str, Any] = {
         "spectrum": spectrum,
@@ -129,6 +135,8 @@ def friction_map(
         "correction": correction,
         "adhesion": adhesion,
     }
+    if angle != 0:
+        made_of["direction"] = angle
     if strain_factors is not None:
         made_of["strain_factors"] = strain_factors
     heat = None

@@ -80,11 +80,12 @@ def _look_up(name: str, told: str) -> Callable[..., Any]:
         a_T: ArrayLike = 1.0,  # noqa: N803
         temperature: ArrayLike | None = None,
         distance: ArrayLike | None = None,
+        direction: ArrayLike | None = None,
         shift_adhesion: bool = False,
         outside: Outside = "error",
     ) -> Any:
         given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
-        more = {"temperature": temperature, "distance": distance}
+        more = {"temperature": temperature, "distance": distance, "direction": direction}
         return self._query(name, given | more, shift_adhesion, outside)
 
     look_up.__name__ = name
@@ -108,6 +109,10 @@ class FrictionMap(Table):
     distance : array_like, optional
         Slid since rest [m]; by default long ago. A map with heat gives mu_hot + (mu_cold - mu_hot)
         exp(-s / s0) after it, as `Friction.mu_at`, without heat mu does not depend on it.
+    direction : array_like, optional
+        Of sliding [rad], from the axis that the map was made for (`friction_map(direction=)`)
+        towards y, of a map that knows directions; by default along that axis. Half a turn changes
+        nothing. Other maps are the same in every direction.
     shift_adhesion : bool
         Shift the adhesion too, as if v0 were v0 / a_T.
     outside : {"error", "nan", "clamp"}
@@ -137,6 +142,11 @@ class FrictionMap(Table):
         The largest relative error among them [-].
     cells : int
         Number of polynomials.
+    directional : bool
+        Whether there are forces across the sliding, `lateral`, which are off by max_error of
+        hysteresis + |lateral| at most.
+    turns : bool
+        Whether look-ups take a direction.
     temperature : (float, float) or None
         T0 of the background [K], equal ends where the map is for one. None without heat.
     memory_error : float or None
@@ -155,6 +165,8 @@ class FrictionMap(Table):
     exceeded: int = field(init=False)
     largest_checked_error: float = field(init=False)
     cells: int = field(init=False)
+    directional: bool = field(init=False)
+    turns: bool = field(init=False)
     temperature: tuple[float, float] | None = field(init=False)
     memory_error: float | None = field(init=False)
 
@@ -246,18 +258,19 @@ class FrictionMap(Table):
         a_T: ArrayLike = 1.0,  # noqa: N803  # the field's symbol
         temperature: ArrayLike | None = None,
         distance: ArrayLike | None = None,
+        direction: ArrayLike | None = None,
         shift_adhesion: bool = False,
         outside: Outside = "error",
     ) -> Any:
         """Return the friction coefficient, hysteresis + adhesion [-]."""
         plain = type(pressure) is type(velocity) is type(a_T) is float and a_T == 1.0
-        plain = plain and temperature is distance is None
+        plain = plain and temperature is distance is direction is None
         if plain and shift_adhesion is False and type(outside) is str and outside in POLICIES:
             mu: float = self._core.mu_at(pressure, velocity)
             if mu == mu:  # what is outside takes the long way round
                 return mu
         given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
-        more = {"temperature": temperature, "distance": distance}
+        more = {"temperature": temperature, "distance": distance, "direction": direction}
         return self._query("mu", given | more, shift_adhesion, outside)
 
     hysteresis = _look_up("hysteresis", "Return mu_H (Eq. 22) [-].")
@@ -271,6 +284,15 @@ class FrictionMap(Table):
         """,
     )
 
+    lateral = _look_up(
+        "lateral",
+        """Return the force across the sliding over the load [-], as `friction` has it.
+
+        On the moving body -lateral p along n, the direction of sliding turned by 90 degrees from x
+        towards y. 0 where the map knows no directions.
+        """,
+    )
+
     def derivatives(
         self,
         pressure: ArrayLike,
@@ -279,12 +301,13 @@ class FrictionMap(Table):
         a_T: ArrayLike = 1.0,  # noqa: N803
         temperature: ArrayLike | None = None,
         distance: ArrayLike | None = None,
+        direction: ArrayLike | None = None,
         shift_adhesion: bool = False,
         outside: Outside = "error",
     ) -> FrictionSlopes:
         """Return d mu / d ln p and d mu / d ln |v|, those of the stored polynomials."""
         given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
-        more = {"temperature": temperature, "distance": distance}
+        more = {"temperature": temperature, "distance": distance, "direction": direction}
         by_p, by_v = self._query("slopes", given | more, shift_adhesion, outside)
         return FrictionSlopes(dmu_dlnp=by_p, dmu_dlnv=by_v)
 
@@ -369,7 +392,7 @@ class FrictionMap(Table):
         """Say why a point has no value."""
         places = point["pressure"], point["velocity"], point["a_T"]
         heat = point.get("temperature", 0.0), point.get("distance", 0.0)
-        status = self._core.status(*places, *heat, *options)
+        status = self._core.status(*places, *heat, point.get("direction", 0.0), *options)
         outside = {
             _PRESSURE_OUTSIDE: ("pressure", "Pa"),
             _VELOCITY_OUTSIDE: ("velocity", "m/s"),
@@ -391,6 +414,9 @@ class FrictionMap(Table):
         if heat[1] < 0:
             value = valued(heat[1], f"{heat[1]:.12g}")
             raise InvalidInput(Argument("distance"), f"{index} = ", value, MUST_BE, "0 or more")
+        if not np.isfinite(turned := point.get("direction", 0.0)):
+            value = valued(turned)
+            raise InvalidInput(Argument("direction"), f"{index} = ", value, MUST_BE, "finite")
         value = valued(point["a_T"], f"{point['a_T']:.12g}")
         raise InvalidInput(Argument("a_T"), f"{index} = ", value, MUST_BE, "positive and finite")
 
@@ -404,12 +430,13 @@ class FrictionMap(Table):
         # of several temperatures the lowest
         at = None if self.temperature is None else self.temperature[0]
         given = {"pressure": p[:, None], "velocity": v, "a_T": 1.0, "temperature": at}
-        rows = self._query("points", given | {"distance": None}, False, "clamp")
+        rows = self._query("points", given | {"distance": None, "direction": None}, False, "clamp")
         axes = ("pressure", "velocity")
-        names = ("mu", "hysteresis", "adhesion", "contact_area")
+        names: dict[str, int] = {"mu": 0, "hysteresis": 1, "adhesion": 2, "contact_area": 3}
+        names |= {"lateral": 6} if self.directional else {}
         return Columns(
             {"pressure": Column(axes[:1], p, "Pa"), "velocity": Column(axes[1:], v, "m/s")},
-            {name: Column(axes, row, "1") for name, row in zip(names, rows[:4], strict=True)},
+            {name: Column(axes, rows[i], "1") for name, i in names.items()},
             {"max_error": self.max_error, "notes": list(self.notes)}
             | ({} if at is None else {"temperature_k": at}),
         )
