@@ -25,7 +25,7 @@ from asperity.contact import Form, Method, contact_model, implausible_notes
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
 from asperity.heating import Heating
-from asperity.results.directions import over_directions
+from asperity.results.directions import along_x_notes, over_directions
 from asperity.results.friction import COLUMNS, Friction, small_friction_notes
 from asperity.results.gradients import Gradients
 from asperity.results.gradients import of_core as gradients_of_core
@@ -62,7 +62,7 @@ def friction(
     heating: Heating | None = None,
     branch: Branch = "cold",
     gradients: bool = False,
-    direction: ArrayLike = 0.0,
+    direction: ArrayLike | None = None,
 ) -> Friction:
     """Return the friction coefficient of rubber sliding on a rough surface (Eqs 22-24).
 
@@ -117,9 +117,9 @@ def friction(
         Also give the slopes of mu over all of these, as `.gradients`, at the cost of some ten
         curves. Not with GSL's methods or heating.
     direction : array_like
-        Of sliding [rad], from x (a map's second axis) towards y (its first); broadcasts with
-        pressure and velocity. It matters to `ScanContact`, whose scan is turned, and to spectra
-        that know directions (`SelfAffineSpectrum(axis_ratio=, lay=)`,
+        Of sliding [rad], from x (a map's second axis) towards y (its first), by default 0;
+        broadcasts with pressure and velocity. It matters to `ScanContact`, whose scan is turned,
+        and to spectra that know directions (`SelfAffineSpectrum(axis_ratio=, lay=)`,
         `power_spectrum(map, directional=True)`): sums over the plane of wavevectors then stand for
         I1 and I2, by as many harmonics as rtol asks for, and `lateral` is the force across. Not
         with GSL's methods. One number where heating, contributions or gradients are asked for.
@@ -148,7 +148,7 @@ def friction(
     >>> result.mu.round(4)
     array([0.002 , 0.0205])
     """
-    if np.ndim(direction):
+    if direction is not None and np.ndim(direction):
         return over_directions(
             partial(
                 friction,
@@ -168,7 +168,7 @@ def friction(
             direction,
             {"heating": heating, "contributions": contributions, "gradients": gradients},
         )
-    angle = number(direction, "direction")
+    angle = 0.0 if direction is None else number(direction, "direction")
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
     law = known_shift(solid, shift)
     at_points = {"pressure": pressure, "velocity": velocity}
@@ -196,6 +196,8 @@ def friction(
             )
         core_result = _core.friction(*points)  # which refuses what cannot be
         absurd = implausible_notes(surface, solid, p, v)
+        if direction is None:
+            absurd += along_x_notes(surface)
         result = _made(core_result, shape, (*solid.notes, *absurd))
         result = _with(result, notes=_size(result))
         if surface.is_directional or isinstance(correction, ScanContact):

@@ -124,6 +124,7 @@ void take_scan(ScanFriction& scan, const FlashSolver& solver, const TemperatureS
   const ScanRatio ratio = scan.hot(pressure, velocity, rule);
   at.error_estimate *= ratio.error_factor(at.adhesion);
   at.hysteresis *= ratio.hysteresis;
+  at.lateral = ratio.across * at.hysteresis;
   at.adhesion *= ratio.area;
   at.contact_area *= ratio.area;
 }

@@ -166,6 +166,7 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
                                               std::array<double, 2> temperature, const MapRequest& request) {
   check_request(request, adhesion);
   check_temperature(temperature);
+  refuse_directions(spectrum, "map with heat");
   check_gauss(model.method, "in a map with heat, whose sliding lengths GSL's methods do not know");
   if (macro_modulus(model.correction, spectrum, rubber, request.velocity[0], model.poisson_ratio))
     throw InvalidInput(

@@ -41,7 +41,7 @@ class Measured:
     spectrum: TabulatedSpectrum
     statistics: Scan | HeightStatistics
     inputs: dict[str, Any]
-    lay: float | None
+    lay: scan.Lay | None
     notes: list[Note]
     raw: Scan  # of a map by tiles, both thinned out
     flat: Scan
@@ -77,7 +77,9 @@ def spectrum(args: Namespace) -> None:
     if isinstance(result.flat, HeightMap):
         numbers |= _iso_25178(result.statistics)
     if result.lay is not None:
-        numbers["slope_anisotropy"] = result.lay
+        numbers["slope_anisotropy"] = result.lay.ratio
+        if result.lay.ratio > scan.LAY:
+            numbers["lay_deg"] = result.lay.degrees
     if (band := scan.trusted(measured)) is not None:
         numbers |= {"reliable_from_per_m": band[0], "reliable_to_per_m": band[1]}
     if fit is not None:
@@ -106,7 +108,9 @@ def spectrum(args: Namespace) -> None:
     table = Table("spectrum", [{**inputs, "found": numbers}], notes, _rows(measured))
     drawn = cutoff if reached else None
     whole = measured.truncated(q1=measured.q1)
-    draw = partial(plot_surface.spectrum_figure, result.raw, result.flat, whole, fit, drawn, floor)
+    draw = partial(
+        plot_surface.spectrum_figure, result.raw, result.flat, whole, fit, drawn, floor, result.lay
+    )
     write_outputs(args, table, draw, numbers)
 
 
@@ -158,7 +162,7 @@ def _in_memory(path: Path, args: Namespace) -> Measured:
     how = {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
     with rename_in_errors(path, {}):
         measured = surface_spectrum(filled, **how)
-    ratio = scan.lay(filled, **how)
+    lay = scan.lay_of(filled, measured, **how)
     flat = scan.flat(filled, how["detrend"])
     return Measured(
         spectrum=measured,
@@ -170,8 +174,8 @@ def _in_memory(path: Path, args: Namespace) -> Measured:
             "window": args.window,
             "detrend": args.detrend,
         },
-        lay=ratio,
-        notes=scan.scan_notes(filled, ratio),
+        lay=lay,
+        notes=scan.scan_notes(filled, lay),
         raw=raw,
         flat=flat,
     )
@@ -197,8 +201,10 @@ def _by_tiles(path: Path, args: Namespace) -> Measured:
         raw = thinned(source, threads=threads)
         filled = raw.fill_dropouts(max_fraction=0.999)
         tile = middle_tile(source, args.tiles, float(args.max_dropouts))
-    ratio = None if tile is None else scan.lay(tile, window=args.window, detrend=detrend)
-    notes = [] if tile is None else scan.scan_notes(tile, ratio)
+    lay = None
+    if tile is not None:
+        lay = scan.lay_of(tile, measured, window=args.window, detrend=detrend)
+    notes = [] if tile is None else scan.scan_notes(tile, lay)
     return Measured(
         spectrum=measured,
         statistics=statistics,
@@ -212,7 +218,7 @@ def _by_tiles(path: Path, args: Namespace) -> Measured:
             "overlap": 0.5 if args.overlap is None else args.overlap,
             "max_dropouts": float(args.max_dropouts),
         },
-        lay=ratio,
+        lay=lay,
         notes=[note.followed_by(" (a tile in the middle)") for note in notes],
         raw=raw,
         flat=scan.flat(filled, detrend),

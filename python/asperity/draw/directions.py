@@ -42,9 +42,10 @@ def draw_directions(
 
 
 def look_polar(axes: Any) -> None:
-    """Name the axes of the map at its angles, and keep the radii's numbers out of the curves."""
+    """Angles as on pictures of maps, whose y points down, with the names of the axes at them."""
     from matplotlib.ticker import MaxNLocator
 
+    axes.set_theta_direction(-1)
     degrees = range(0, 360, _TICKS)
     names = {0: "$x$", 90: "$y$"}
     axes.set_thetagrids(degrees, [names.get(one, f"{one}°") for one in degrees])

@@ -33,7 +33,7 @@ def surface_figure(scene: Scene, path: Path) -> bytes:
         detrend = None if values["detrend"] == "none" else values["detrend"]
         shown = flat(scan, detrend)
         if isinstance(shown, HeightMap):
-            draw_map(figure, panels[0], shown)
+            draw_map(figure, panels[0], shown, scene.surface.lay)
         else:
             draw_line(panels[0], shown)
         panels[0].set_title(without_trend(scan), fontsize="medium")

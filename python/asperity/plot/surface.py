@@ -1,5 +1,6 @@
 """Figures of a scan and its spectrum (matplotlib)."""
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -7,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.draw.figure import legend, new_figure, picture
-from asperity.draw.style import grey, narrow, palette
-from asperity.scene.scan import Scan, nyquist
+from asperity.draw.style import grey, narrow, palette, paper
+from asperity.scene.scan import LAY, Lay, Scan, nyquist
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
@@ -30,6 +31,7 @@ def spectrum_figure(
     fit: SelfAffineFit | None,
     cutoff: float | None,
     floor: float | None,
+    lay: Lay | None,
     path: Path,
 ) -> bytes:
     """The scan as measured, without its trend (the article's Fig. 6), and its spectrum up to pi /
@@ -42,7 +44,7 @@ def spectrum_figure(
         (middle, flat, f"(b) {without_trend(raw)}"),
     ):
         if isinstance(scan, HeightMap):
-            draw_map(figure, axes, scan)
+            draw_map(figure, axes, scan, lay)
         else:
             draw_line(axes, scan)
         axes.set_title(title, fontsize="medium", pad=_ABOVE)
@@ -65,7 +67,8 @@ def _fit_to_maps(figure: "Figure", scan: HeightMap) -> None:
     figure.axes[0].get_gridspec().set_width_ratios([width, width, _SPECTRUM])  # type: ignore[union-attr]
 
 
-def draw_map(figure: "Figure", axes: "Axes", scan: HeightMap) -> None:
+def draw_map(figure: "Figure", axes: "Axes", scan: HeightMap, lay: Lay | None = None) -> None:
+    """The heights, and the direction of the ridges where there is one."""
     ny, nx = scan.heights.shape
     step = -(-max(ny, nx) // (_MOST_PIXELS // 2 if narrow() else _MOST_PIXELS))
     shown = np.asarray(scan.heights[::step, ::step], dtype=float)
@@ -85,6 +88,25 @@ def draw_map(figure: "Figure", axes: "Axes", scan: HeightMap) -> None:
     axes.set_xlabel(f"$x$ [{length_unit}]")
     axes.set_ylabel(f"$y$ [{length_unit}]")
     figure.colorbar(image, ax=axes, label=f"height [{height_unit}]", shrink=0.85)
+    if lay is not None and lay.ratio > LAY:
+        _draw_lay(axes, lay, size / length)
+
+
+def _draw_lay(axes: "Axes", lay: Lay, size: NDArray[np.float64]) -> None:
+    """A line along the ridges through the middle, with its angle."""
+    y, x = size / 2
+    step = 0.3 * min(size) * np.array([math.cos(lay.direction), math.sin(lay.direction)])
+    for colour, width in ((paper(), 3.5), (palette()[1], 1.8)):
+        line = [x - step[0], x + step[0]], [y - step[1], y + step[1]]
+        axes.plot(*line, color=colour, linewidth=width, solid_capstyle="round")
+    axes.annotate(
+        f"lay {lay.degrees:.0f}°",
+        (x + step[0], y + step[1]),
+        textcoords="offset points",
+        xytext=(4, 4),
+        fontsize="small",
+        bbox={"facecolor": paper(), "alpha": 0.8, "linewidth": 0, "boxstyle": "round,pad=0.2"},
+    )
 
 
 def draw_line(axes: "Axes", scan: LineScan) -> None:

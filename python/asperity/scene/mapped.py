@@ -14,7 +14,13 @@ from asperity.scene.model import Scene
 
 def heat_of_map(scene: Scene) -> dict[str, Any]:
     """What a map takes of a scene's heat: a list of temperatures is the range of the map's."""
-    temperatures = [one.temperature for one in (scene, *scene.others)]
+    all_places = (scene, *scene.others)
+    if len({one.direction_deg for one in all_places}) > 1:
+        allowed = "one: it is where look-ups begin to count, and these take all others"
+        raise InvalidInput(
+            Argument("[conditions] direction_deg"), MUST_BE, allowed, where=scene.path
+        )
+    temperatures = [one.temperature for one in all_places]
     if scene.heating is None:
         if len(temperatures) > 1:
             allowed = "one temperature where no [heating] is given; a_T leads to others"

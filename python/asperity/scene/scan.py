@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,12 +16,12 @@ from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import NO_DIRECTIONS, Window, line_spectrum, power_spectrum
 from asperity.plane_spectrum import anisotropy
-from asperity.spectrum import TabulatedSpectrum
+from asperity.results.directions import LAY as LAY
+from asperity.spectrum import Spectrum, TabulatedSpectrum
 from asperity.surface import Detrend, HeightMap, LineScan
 
 Scan = HeightMap | LineScan
 
-_LAY = 1.5  # ratio of the principal slopes above which directions matter: |C| differs by its square
 _WORN = -0.4  # skewness below which exact contacts differ from those of the spectrum by 20 %
 _BINS = (10.0, 7.0, 5.0, 3.0)  # a decade, for the spectrum of a line scan
 _FEW_PERIODS, _NEAR_NYQUIST = 1, 2  # bits of TabulatedSpectrum.flag
@@ -73,27 +74,47 @@ def flat(scan: Scan, detrend: Detrend | None) -> Scan:
     return scan.detrend(detrend or "offset")
 
 
-def lay(scan: Scan, *, window: Window, detrend: Detrend | None) -> float | None:
-    """Ratio of the principal slopes; None of a line scan, and of a map too small to tell."""
+@dataclass(frozen=True)
+class Lay:
+    """How much rougher a scan is across its lay, from all waves of a band."""
+
+    ratio: float  # of the principal slopes
+    direction: float  # of the lay, from x towards y [rad]
+    band: tuple[float, float]  # [1/m]
+
+    @property
+    def degrees(self) -> float:
+        return math.degrees(self.direction)
+
+
+def lay_of(
+    scan: Scan, spectrum: Spectrum, *, window: Window, detrend: Detrend | None
+) -> Lay | None:
+    """The lay of a scan on the band that is used; None of a line scan, and of a map too small to
+    tell."""
     if isinstance(scan, LineScan):
         return None
+    band = spectrum.q0, min(spectrum.q1, nyquist(scan))
+    how: dict[str, Any] = {"window": window, "detrend": detrend}
     try:
-        slopes = anisotropy(scan, window=window, detrend=detrend)
+        slopes = anisotropy(scan, **how, q_min=band[0], q_max=band[1])
     except InvalidInput:
         return None
-    return slopes.ratio if slopes.along > 0 else None
+    return Lay(slopes.ratio, slopes.direction, band) if slopes.along > 0 else None
 
 
-def scan_notes(scan: Scan, ratio: float | None, *, directional: bool = False) -> list[Note]:
+def scan_notes(scan: Scan, found: Lay | None, *, directional: bool = False) -> list[Note]:
     """What a reader of the spectrum must know of the scan."""
     notes = []
     if isinstance(scan, LineScan):
         text = "of a line scan: C(q) is that of the isotropic surface with such profiles"
         notes += [Note(text, code="line-scan"), *_worn_notes(scan)]
-    if ratio is not None and ratio > _LAY and not directional:
+    if found is not None and found.ratio > LAY and not directional:
+        low, high = found.band
         text = (
-            f"the slope across the lay is {ratio:.3g} times that along it: the spectrum is an "
-            "average over directions, and stands for none"
+            f"the slope across the lay is {found.ratio:.3g} times that along it, which is at "
+            f"{found.degrees:.0f} degrees from x towards y (waves from {low:.3g} to {high:.3g} "
+            "1/m): the spectrum is an average over directions, and stands for none"
         )
         step = "directional = true in [surface] keeps them, and direction_deg says which is slid"
         notes.append(Note(text, code="lay", next_step=step))

@@ -33,8 +33,10 @@ from asperity.io.instrument import scans_of_container
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import merge_spectra, power_spectrum
 from asperity.scene.scan import (
+    LAY,
+    Lay,
     Scan,
-    lay,
+    lay_of,
     line_notes,
     noise_floor,
     read_filled,
@@ -108,6 +110,7 @@ class Surface:
     notes: Sequence[Note]
     drawn: Drawn[Spectrum]  # as its standard errors would have it, where they are known
     fit: SelfAffineFit | None = None  # to the scan's spectrum, where the scene asks for one
+    lay: Lay | None = None  # of the scan
     fitted_heights: Sequence[Note] = ()  # on the scan's heights, which a fit does not carry
 
 
@@ -115,7 +118,7 @@ def build_surface(path: Path, table: object) -> Surface:
     """The surface of a scene's table."""
     values = read_table(path, "surface", table, SURFACE)
     derived: Values = {}
-    scan = fit = floor = None
+    scan = fit = floor = lay = None
     of_heights: Sequence[Note] = ()
     if "file" in values:
         for key in _SELF_AFFINE:
@@ -156,7 +159,10 @@ def build_surface(path: Path, table: object) -> Surface:
     notes = _slope_notes(spectrum, values, table, law)
     if scan is not None:
         directional = spectrum.is_directional
-        notes += scan_notes(scan, lay(scan, **_transform(values)), directional=directional)
+        lay = lay_of(scan, spectrum, **_transform(values))
+        notes += scan_notes(scan, lay, directional=directional)
+        if lay is not None and lay.ratio > LAY:
+            derived |= {"slope_anisotropy": lay.ratio, "lay_deg": lay.degrees}
         notes += line_notes(measured) if isinstance(scan, HeightMap) else []
         notes += _noise_notes(floor, spectrum)
     drawn = drawn_spectrum(spectrum)
@@ -165,7 +171,7 @@ def build_surface(path: Path, table: object) -> Surface:
         notes += _fit_notes(fit, spectrum)
         of_heights = _height_notes(measured)
         drawn = Drawn[Spectrum](spectrum, partial(_draw_fit, fit, spectrum.q0, spectrum.q1))
-    return Surface(spectrum, scan, values, derived, notes, drawn, fit, of_heights)
+    return Surface(spectrum, scan, values, derived, notes, drawn, fit, lay, of_heights)
 
 
 def _read_scans(path: Path, values: Values, derived: Values, *, every: bool) -> list[Scan]:

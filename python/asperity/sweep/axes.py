@@ -13,13 +13,14 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import brief
 from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal, valued
 from asperity.io import plausible
-from asperity.io.fields import Field, nearest, read_table, sweep
+from asperity.io.fields import Field, angles, nearest, read_table, sweep
 from asperity.scene.known import KEYS, KEYS_OF_KIND
 
 PRESSURE, VELOCITY = "conditions.pressure_pa", "conditions.velocity_m_s"
 POINTS = (PRESSURE, VELOCITY)  # what changes from point to point of a scene
 _SWEEP = {"from", "to", "points"}
-_LISTS = ("conditions.temperature_k", "conditions.temperature_c", *POINTS)  # lists that scenes have
+_TEMPERATURES = ("conditions.temperature_k", "conditions.temperature_c")
+_LISTS = (*_TEMPERATURES, "conditions.direction_deg", *POINTS)  # lists that scenes have
 _WITHOUT = "none"  # the kind of no correction
 _NUMBERS = (int, float, np.integer, np.floating)
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
@@ -62,8 +63,8 @@ def axes_of(path: Path, over: object, tables: Mapping[str, Any]) -> list[Axis]:
     own = {
         key: values for key in _LISTS if key not in taken and (values := _listed(path, tables, key))
     }
-    if taken.keys() & set(_LISTS[:2]):  # the one takes the place of the other
-        own = {key: values for key, values in own.items() if key in POINTS}
+    if taken.keys() & set(_TEMPERATURES):  # the one takes the place of the other
+        own = {key: values for key, values in own.items() if key not in _TEMPERATURES}
     return [*axes, *(Axis(key, {key: values}) for key, values in own.items())]
 
 
@@ -127,7 +128,8 @@ def _values(path: Path, key: str, entry: object, axis: str) -> Sequence[Any]:
         raise InvalidInput(f"over {inside}{key}: is no key of a scene, {_meant(key)}", where=path)
     fields = KEYS[table]
     if isinstance(entry, Mapping):
-        one = read_table(path, table, {field: entry}, {field: Field(sweep)})
+        spread = angles if fields[field].read is angles else sweep
+        one = read_table(path, table, {field: entry}, {field: Field(spread)})
         entry = one[field]
     if isinstance(entry, str | bytes) or not hasattr(entry, "__iter__"):
         raise refusal(f"over {key}", entry, "a list", where=path)

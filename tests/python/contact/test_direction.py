@@ -164,6 +164,22 @@ def test_degrees_given_as_radians_are_noted():
     assert [note.code for note in notes if note.argument == "direction"] == ["large-angle"]
 
 
+@pytest.mark.parametrize(
+    ("ratio", "direction", "noted"), [(2.5, None, True), (2.5, 0.0, False), (1.2, None, False)]
+)
+def test_sliding_along_x_without_being_asked_to_is_noted(ratio, direction, noted):
+    spectrum = SelfAffineSpectrum(
+        rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5, axis_ratio=ratio, lay=np.radians(115)
+    )
+    at = {} if direction is None else {"direction": direction}
+    notes = asperity.friction(spectrum, RUBBER, pressure=2e5, velocity=1e-2, **at).notes
+    found = [note for note in notes if note.code == "along-x"]
+    assert bool(found) is noted
+    for note in found:
+        assert note.value == pytest.approx(65, abs=1)  # degrees to the ridges
+        assert note.severity == "warning"
+
+
 def test_the_area_is_that_of_the_friction():
     at = {"pressure": 2e5, "velocity": 1e-2, "correction": PartialContact(), "direction": 0.6}
     spectrum = rows(0.4, 0.1)
