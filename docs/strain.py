@@ -25,7 +25,8 @@ OF_STRAIN = {"columns": COLUMNS | {"strain": "strain_dyn_pct"}, "units": UNITS |
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
 SMALL = 0.0015  # the strain of the isotherms
 RUBBERS = {"material_a": "C0", "epdm_70": "C1"}
-VELOCITY = np.geomspace(1e-6, 1e-2, 41)
+TOLD = (1e-5, 1e-4, 1e-3)  # velocities of the table
+VELOCITY = np.union1d(np.geomspace(1e-6, 1e-2, 41), TOLD)
 PRESSURE = 2e5
 
 
@@ -68,12 +69,12 @@ def main(folder: Path) -> None:
         middle.semilogx(soft.velocity, soft.mu, "--", color=color, label="by magnification")
         right.loglog(plain.velocity, plain.contact_area, "-", color=color)
         right.loglog(soft.velocity, soft.contact_area, "--", color=color)
-        for v in (1e-5, 1e-4, 1e-3):
-            i = np.argmin(np.abs(np.log(plain.velocity / v)))
-            print(
-                f"{name} {plain.velocity[i]:.1e} {plain.mu[i]:.3f} {soft.mu[i]:.3f} {one.mu[i]:.3f}"
-                f" {plain.contact_area[i]:.4f} {soft.contact_area[i]:.4f}"
-            )
+        for i, v in enumerate(at["velocity"]):
+            if v in TOLD:
+                print(
+                    f"{name} {v:.0e} {plain.mu[i]:.3f} {soft.mu[i]:.3f} {one.mu[i]:.3f}"
+                    f" {plain.contact_area[i]:.4f} {soft.contact_area[i]:.4f}"
+                )
         print(*soft.notes, sep="\n")
         print(*factors.notes, sep="\n")
     left.set(xlabel="Strain amplitude [%]", ylabel="Over that at 0.15 %")

@@ -186,6 +186,10 @@ def friction(
     t = at[0] if at else None
     shifted_by = None if law is None or t is None else temperature_shift_core(law)
     points = (*parts, model, added, p, v, with_contributions, count, shifted_by, t)
+    along_x = along_x_notes(surface) if direction is None else ()
+    turned = {}
+    if surface.is_directional or isinstance(correction, ScanContact):
+        turned["direction"] = _shaped(np.full(np.size(p), angle), shape)
     if heating is None:
         if which:
             raise InvalidInput(
@@ -196,12 +200,8 @@ def friction(
             )
         core_result = _core.friction(*points)  # which refuses what cannot be
         absurd = implausible_notes(surface, solid, p, v)
-        if direction is None:
-            absurd += along_x_notes(surface)
-        result = _made(core_result, shape, (*solid.notes, *absurd))
-        result = _with(result, notes=_size(result))
-        if surface.is_directional or isinstance(correction, ScanContact):
-            result = _with(result, direction=_shaped(np.full(np.size(p), angle), shape))
+        result = _made(core_result, shape, (*solid.notes, *absurd, *along_x))
+        result = _with(result, notes=_size(result), **turned)
         if slopes:
             of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t)
             result = _with(result, gradients=gradients_of_core(of, shape))
@@ -235,8 +235,9 @@ def friction(
         "gain": _shaped(gain, shape),
         "branches": _shaped(branches, shape),
     }
-    result = _made(hot, shape, (*solid.notes, *implausible_notes(surface, solid, p, v)))
-    result = _with(result, notes=_size(result))
+    absurd = implausible_notes(surface, solid, p, v)
+    result = _made(hot, shape, (*solid.notes, *absurd, *along_x))
+    result = _with(result, notes=_size(result), **turned)
     if result.wavenumber is not None:
         extras["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
     length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)
