@@ -12,6 +12,7 @@ from asperity._core import Error
 from asperity.app import downloads
 from asperity.app.charts import Options, contributions_chart, friction_chart
 from asperity.app.computed import contributions
+from asperity.app.design_part import DesignPart
 from asperity.app.parts import chart, part, redraw, redraw_series
 from asperity.app.state import State
 from asperity.app.words import allowed_velocities, in_one_line
@@ -50,6 +51,7 @@ class ResultPart:
                 self._velocity = ui.select([], label="At velocity [m/s]", on_change=self._chosen)
                 self._velocity.props("dense outlined").classes("w-48")
                 self._shares = chart({}, "Contributions by wavenumber")
+            self._design = DesignPart(worker)
             with ui.expansion("Numbers").classes("w-full").props("dense"):
                 self._table = ui.html("", sanitize=False).classes("w-full overflow-auto max-h-96")
                 self._table.props('tabindex="0" role="region" aria-label="Table of the numbers"')
@@ -85,6 +87,7 @@ class ResultPart:
             self._tell(found)
             self._text.set_content(f"<code>{escape(self._state.text_of(found.tables))}</code>")
             self._offer_velocities(found)
+            self._design.show()
         self._busy(not found.whole)
 
     def wait(self, said: str) -> None:

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from asperity.scene.model import Scene
 from asperity.scene.parts import build_correction
 from asperity.scene.rubber import BuiltRubber, build_rubber
 from asperity.scene.scene import Builders, scene_of
-from asperity.scene.surface import Surface, build_surface
+from asperity.scene.surface import READ, Surface, build_surface, read_scans
 from asperity.scene.unknowns import Unknown, with_numbers
 
 Array = NDArray[np.float64]
@@ -38,8 +39,14 @@ class _Kept:
         return Builders(self._surface, self._rubber, self._correction)
 
     def _surface(self, path: Path, table: object) -> Surface:
-        made: Surface = self._get(("surface", _text(table)), lambda: build_surface(path, table))
+        build = partial(build_surface, path, table, self._read)
+        made: Surface = self._get(("surface", _text(table)), build)
         return made
+
+    def _read(self, path: Path, values: dict[str, Any], every: bool) -> Any:
+        which = {key: values[key] for key in READ if key in values}
+        key = ("scans", _text(which), every)
+        return self._get(key, lambda: read_scans(path, values, every))
 
     def _rubber(self, path: Path, table: object, at: float | None) -> BuiltRubber:
         key = ("rubber", _text(table), at)
@@ -58,7 +65,7 @@ class _Kept:
             while len(self._made) >= _MOST_KEPT:
                 self._made.pop(next(iter(self._made)))
             self._made[key] = made, notes
-        made, notes = self._made[key]
+        made, notes = self._made[key] = self._made.pop(key)  # now the latest
         plausible.tell_again(notes)
         return made
 

@@ -1,7 +1,7 @@
 """Surface of a scene: a self-affine spectrum, or what a scan gives."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
@@ -49,6 +49,7 @@ from asperity.surface import HeightMap
 from asperity.uncertainty.draws import Drawn, Generator, draw_fit, drawn_spectrum
 
 Values = dict[str, Any]
+Read = Callable[[Path, Values, bool], tuple[list[Scan], Values]]
 
 _SELF_AFFINE = fields_of(SelfAffineSpectrum, "rms_height", "hurst", "rolloff", "axis_ratio", "lay")
 _BAND = fields_of(SelfAffineSpectrum, "q0", "q1")
@@ -69,6 +70,7 @@ _READ = {
     **fields_of(read_surface, "unit"),
     "max_dropouts": fields_of(HeightMap.fill_dropouts, "max_fraction")["max_fraction"],
 }
+READ = ("file", *_READ)  # the keys that say which heights
 _TRANSFORM = fields_of(power_spectrum, "window", "detrend")
 _MERGED = 10.0  # bins a decade of the spectrum of several scans
 _FINEST = 1e11  # [1/m], beyond the distance of atoms
@@ -114,8 +116,9 @@ class Surface:
     fitted_heights: Sequence[Note] = ()  # on the scan's heights, which a fit does not carry
 
 
-def build_surface(path: Path, table: object) -> Surface:
-    """The surface of a scene's table."""
+def build_surface(path: Path, table: object, read: Read | None = None) -> Surface:
+    """The surface of a scene's table. `read` takes the place of `read_scans` for who keeps what it
+    read."""
     values = read_table(path, "surface", table, SURFACE)
     derived: Values = {}
     scan = fit = floor = lay = None
@@ -126,7 +129,8 @@ def build_surface(path: Path, table: object) -> Surface:
                 refuse(path, f"[surface] {key}", "must be left out where file is given")
         every = "channel" not in values
         values = {**defaults_of(_READ), **defaults_of(_TRANSFORM), **values}
-        scans = _read_scans(path, values, derived, every=every)
+        scans, facts = (read or read_scans)(path, values, every)
+        derived |= facts
         measured, fit, floor = _measure(path, scans, values)
         scan = scans[0] if len(scans) == 1 else None
         spectrum: Spectrum = measured if fit is None else _of_fit(path, fit, values)
@@ -174,7 +178,7 @@ def build_surface(path: Path, table: object) -> Surface:
     return Surface(spectrum, scan, values, derived, notes, drawn, fit, lay, of_heights)
 
 
-def _read_scans(path: Path, values: Values, derived: Values, *, every: bool) -> list[Scan]:
+def read_scans(path: Path, values: Values, every: bool) -> tuple[list[Scan], Values]:
     """The scans without drop-outs; trends are still in them. Of an archive all or one."""
     named = values["file"] if isinstance(values["file"], list) else [values["file"]]
     how = arguments(values, _READ)
@@ -188,8 +192,7 @@ def _read_scans(path: Path, values: Values, derived: Values, *, every: bool) -> 
         pixel = list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing
         facts["pixel_size_m"].append(pixel)
         facts["dropout_fraction"].append(raw.dropout_fraction)
-    derived |= {key: of[0] if len(of) == 1 else of for key, of in facts.items()}
-    return scans
+    return scans, {key: of[0] if len(of) == 1 else of for key, of in facts.items()}
 
 
 def _channels(
