@@ -279,24 +279,14 @@ class HeightMap(_Surface):
         return Columns(places, {"height": Column(("y", "x"), self.heights, "m", "height")})
 
     def _draw(self, axes: Any) -> None:
-        (ny, nx), (dy, dx) = self.heights.shape, self.pixel_size
-        step = -(-max(ny, nx) // _MOST_PIXELS)
+        step = -(-max(self.heights.shape) // _MOST_PIXELS)
         shown = self.heights[::step, ::step].astype(float)
-        length, length_unit = metric_unit(max(ny * dy, nx * dx))
-        height, height_unit = metric_unit(float(np.nanmax(np.abs(shown))))
-        low, high = np.nanpercentile(shown / height, [0.2, 99.8])
+        height, unit = metric_unit(float(np.nanmax(np.abs(shown))))
+        low, high = np.nanpercentile(shown / height, [0.2, 99.8]).tolist()
         axes.set_facecolor("0.6")  # drop-outs
-        image = axes.imshow(
-            shown / height,
-            extent=(0, nx * dx / length, ny * dy / length, 0),
-            cmap="cividis",
-            vmin=float(low),
-            vmax=float(high),
-            interpolation="nearest",
-        )
-        axes.set_xlabel(f"$x$ [{length_unit}]")
-        axes.set_ylabel(f"$y$ [{length_unit}]")
-        axes.figure.colorbar(image, ax=axes, label=f"height [{height_unit}]", shrink=0.85)
+        label = f"height [{unit}]"
+        size = self.heights.shape, self.pixel_size
+        draw_map(axes, shown / height, *size, label, vmin=low, vmax=high)
 
 
 @value
@@ -345,6 +335,24 @@ class LineScan(_Surface):
         axes.plot(x / length, self.heights / height, linewidth=0.7)
         axes.set_xlabel(f"$x$ [{length_unit}]")
         axes.set_ylabel(f"height [{height_unit}]")
+
+
+def draw_map(
+    axes: Any,
+    shown: NDArray[Any],
+    shape: tuple[int, ...],
+    pixel_size: tuple[float, float],
+    label: str,
+    **limits: float,
+) -> None:
+    """Draw the numbers of a map, which may be thinned out, with a bar of their colours."""
+    (ny, nx), (dy, dx) = shape, pixel_size
+    length, unit = metric_unit(max(ny * dy, nx * dx))
+    extent = (0, nx * dx / length, ny * dy / length, 0)
+    image = axes.imshow(shown, extent=extent, cmap="cividis", interpolation="nearest", **limits)
+    axes.set_xlabel(f"$x$ [{unit}]")
+    axes.set_ylabel(f"$y$ [{unit}]")
+    axes.figure.colorbar(image, ax=axes, label=label, shrink=0.85)
 
 
 def metric_unit(size: float) -> tuple[float, str]:

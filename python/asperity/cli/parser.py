@@ -88,6 +88,30 @@ def parser() -> argparse.ArgumentParser:
         notes(to)
         to.add_argument("--json", action="store_true", help="write JSON instead of CSV")
 
+    def of_scan(
+        to: argparse.ArgumentParser, channel: int | None = None, detrend: str | None = None
+    ) -> None:
+        to.add_argument(
+            "--pixel-size", type=pixel_size, metavar="DY,DX", help="[m], where the file states none"
+        )
+        to.add_argument(
+            "--unit",
+            metavar="UNIT",
+            help="of the heights (m, mm, um, nm, pm), where the file states none",
+        )
+        to.add_argument(
+            "--channel",
+            type=whole,
+            default=channel,
+            help="of a file with several maps (default: 0)",
+        )
+        to.add_argument(
+            "--detrend",
+            choices=("plane", "quadratic", "offset", "none"),
+            default=detrend,
+            help="what is taken off the heights first (default: plane)",
+        )
+
     def directory(to: argparse.ArgumentParser, default: str) -> None:
         to.add_argument(
             "--output", metavar="DIR", default=default, help="directory (default: %(default)s)"
@@ -143,30 +167,11 @@ def parser() -> argparse.ArgumentParser:
         "scan.npy --pixel-size 2e-6,1e-6 --unit um --detrend quadratic --plot spectrum.png",
     )
     spectrum.add_argument("file", metavar="FILE")
-    spectrum.add_argument(
-        "--pixel-size", type=pixel_size, metavar="DY,DX", help="[m], where the file states none"
-    )
-    spectrum.add_argument(
-        "--unit",
-        metavar="UNIT",
-        help="of the heights (m, mm, um, nm, pm), where the file states none",
-    )
-    spectrum.add_argument(
-        "--channel",
-        type=whole,
-        default=0,
-        help="of a file with several maps (default: %(default)s)",
-    )
+    of_scan(spectrum, channel=0, detrend="plane")
     spectrum.add_argument(
         "--window",
         choices=WINDOWS,
         default=WINDOWS[0],
-        help="default: %(default)s",
-    )
-    spectrum.add_argument(
-        "--detrend",
-        choices=("plane", "quadratic", "offset", "none"),
-        default="plane",
         help="default: %(default)s",
     )
     spectrum.add_argument(
@@ -357,16 +362,7 @@ def parser() -> argparse.ArgumentParser:
         metavar="FILE",
         help="a map of your own, pressed by boundary elements",
     )
-    validate.add_argument(
-        "--pixel-size", type=pixel_size, metavar="DY,DX", help="[m], where the file states none"
-    )
-    validate.add_argument("--unit", metavar="UNIT", help="of its heights, where it states none")
-    validate.add_argument("--channel", type=whole, help="of a file with several maps (default: 0)")
-    validate.add_argument(
-        "--detrend",
-        choices=("plane", "quadratic", "offset", "none"),
-        help="before it is pressed (default: plane)",
-    )
+    of_scan(validate)
     validate.add_argument(
         "--q0",
         type=number,

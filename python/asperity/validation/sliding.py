@@ -12,7 +12,7 @@ from asperity.base.diagnostics import Note, fatal_first, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.dma import AnyRubber, rubber_of
-from asperity.surface import HeightMap, around, metric_unit
+from asperity.surface import HeightMap, around, draw_map
 
 __all__ = ["SlidingContact", "SlidingStep", "slide"]
 
@@ -104,20 +104,13 @@ class SlidingContact(Table):
         )
 
     def _draw(self, axes: Any) -> None:
-        (ny, nx), (dy, dx) = self.pressure.shape, self.pixel_size
-        step = -(-max(ny, nx) // _MOST_PIXELS)
+        step = -(-max(self.pressure.shape) // _MOST_PIXELS)
         shown = self.pressure[::step, ::step]
-        length, unit = metric_unit(max(ny * dy, nx * dx))
         axes.set_facecolor("0.9")  # no contact
-        image = axes.imshow(
-            np.where(shown > 0, shown, math.nan),
-            extent=(0, nx * dx / length, ny * dy / length, 0),
-            cmap="cividis",
-            interpolation="nearest",
-        )
-        axes.set_xlabel(f"$x$ [{unit}], along the way")
-        axes.set_ylabel(f"$y$ [{unit}]")
-        axes.figure.colorbar(image, ax=axes, label="contact pressure [Pa]", shrink=0.85)
+        pressed = np.where(shown > 0, shown, math.nan)
+        size = self.pressure.shape, self.pixel_size
+        draw_map(axes, pressed, *size, "contact pressure [Pa]")
+        axes.set_xlabel(f"{axes.get_xlabel()}, along the way")
 
 
 def slide(
