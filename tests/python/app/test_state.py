@@ -12,7 +12,7 @@ import pytest
 
 import asperity
 from asperity.app import files
-from asperity.app.computed import contributions, without_heat
+from asperity.app.computed import contributions
 from asperity.app.corrections import OF_SCAN, PLAIN, offered
 from asperity.app.downloads import map_of, report_of, scene_archive, table_csv
 from asperity.app.guess import guess_columns
@@ -90,15 +90,6 @@ def test_a_scene_reads_back_as_it_was_written() -> None:
         "conditions": {"pressure_pa": 0.1 + 0.2, "points": 10**17, "v": np.float64(1e-300)},
     }
     assert tomllib.loads(scene_text(tables)) == tables
-
-
-def test_heat_is_what_changes_between_cold_and_hot(state: State) -> None:
-    state.use("heating", True)
-    hot = state.load()
-    cold = without_heat(hot).friction().mu
-    state.use("heating", False)
-    assert np.array_equal(cold, state.load().friction().mu)
-    assert hot.friction().mu[0, -1] < 0.99 * cold[0, -1]
 
 
 def test_contributions_sum_to_the_hysteresis(state: State) -> None:

@@ -62,28 +62,6 @@ def test_friction_table_is_the_cores_to_the_last_digit(
     assert step.startswith("next: ")
 
 
-def test_header_carries_every_input_and_unit(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    main(["friction", "scene.toml"])
-    comments, _ = rows_of(capsys.readouterr().out)
-    assert comments[0] == f"# asperity {asperity.__version__} friction"
-    for line in (
-        '# scene = "scene.toml"',
-        "# surface.rms_height_m = 7.6572e-05",
-        "# rubber.moduli_pa = [1000000000.0, 100000000.0, 10000000.0]",
-        '# conditions.velocity_m_s = {"from": 0.0001, "to": 1, "points": 5}',
-        "# conditions.poisson_ratio = 0.5",
-        "# adhesion.width = 0.1",
-        "# adhesion.reference_velocity_m_s = 0.006",
-        "# solver.rtol = 1e-06",
-        '# solver.form = "exact"',
-        "# derived.q1_per_m = 100000.0",
-    ):
-        assert line in comments
-    assert comments[-1].startswith("# columns: pressure_pa [Pa], velocity_m_s [m/s], mu [-], ")
-
-
 def test_several_scenes_stand_under_one_another(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

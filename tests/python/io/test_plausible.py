@@ -7,8 +7,6 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.base import quantities
-from asperity.cli.main import main
 from asperity.demo import input_files
 from asperity.scene.scene import load_scene
 from helpers.measured import COLUMNS, POLYISOPRENE, UNITS, present, scans_of
@@ -238,14 +236,6 @@ def test_what_is_unusual_is_noted_with_a_guess_of_the_unit(tmp_path, table, chan
     assert f"; in {unit}? " in note
 
 
-def test_the_shell_notes_what_is_unusual_in_one_line_and_in_the_table(tmp_path, capsys):
-    path = scene(tmp_path, conditions=CONDITIONS.replace("81e3", "81"))
-    assert main(["friction", str(path), "--output", str(tmp_path / "mu.csv")]) == 0
-    lines = capsys.readouterr().err.splitlines()
-    (line,) = [line for line in lines if "[conditions] pressure_pa = 81: unusual" in line]
-    assert (tmp_path / "mu.csv").read_text().count(f"# {line}\n") == 1
-
-
 DMA = ["rubber", "dma.csv", "--columns", "frequency=f,temperature=T,storage=a,loss=b"]
 DMA += ["--modulus", "E", "--units"]
 
@@ -273,18 +263,6 @@ def test_the_reader_of_isotherms_notes_it(tmp_path, caplog, written, units, mess
     units = {"frequency": "Hz", "temperature": "C", "modulus": "MPa", **units}
     asperity.read_isotherms(tmp_path / "dma.csv", columns=columns, units=units, modulus="E")
     assert any(message in line for line in caplog.messages), caplog.messages
-
-
-def test_every_limit_has_its_reason():
-    found = {name: q for name, q in vars(quantities).items() if isinstance(q, quantities.Quantity)}
-    assert len(found) > 12
-    for name, quantity in found.items():
-        least, most = quantity.least.value, quantity.most.value
-        low = least if quantity.low is None else quantity.low.value
-        high = most if quantity.high is None else quantity.high.value
-        assert least <= low < high <= most, name
-        limits = (quantity.least, quantity.low, quantity.high, quantity.most)
-        assert all(limit.reason for limit in limits if limit is not None and limit.value > 0), name
 
 
 ROAD = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 3e4}

@@ -80,22 +80,6 @@ def test_a_dark_picture_is_dark_and_the_next_one_is_not(folder: Path, verb: str)
         assert low <= corner.min() <= corner.max() <= high
 
 
-@pytest.mark.parametrize("verb", ["friction", "spectrum"])
-def test_a_picture_of_a_single_column_is_as_wide_as_one(
-    folder: Path, figures: list[Any], verb: str
-) -> None:
-    scan = ["scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
-    arguments = [verb, *(scan if verb == "spectrum" else ["scene.toml"]), "--output", "a.csv"]
-    assert main([*arguments, "--plot", "a.png", "--style", "single"]) == 0
-    (figure,) = figures
-    assert figure.get_size_inches()[0] == pytest.approx(3.4)
-    panels = [axes for axes in figure.axes if axes not in bars(figure)]
-    lefts = [axes.get_position().x0 for axes in panels]
-    assert max(lefts) - min(lefts) < 0.2
-    for text in figure.findobj(lambda one: hasattr(one, "get_fontsize")):
-        assert not text.get_text() or 4 <= text.get_fontsize() <= 10
-
-
 @pytest.mark.parametrize("count", range(1, 13))
 def test_colours_show_on_what_is_drawn_on(count: int) -> None:
     """By the contrast of WCAG 2.1, 1.4.11: 3 on a dark screen."""

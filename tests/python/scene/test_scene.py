@@ -111,16 +111,6 @@ def test_scan_is_measured_as_by_hand(folder: Path) -> None:
     assert scene.derived["pixel_size_m"] == [2e-5, 1e-5]
 
 
-def test_scan_defaults_are_the_cores_and_are_recorded(folder: Path) -> None:
-    scene = load_scene(write(folder, SCAN + RUBBER + CONDITIONS))
-    surface = asperity.read_surface(folder / "scan.npy", pixel_size=(2e-5, 1e-5), unit="um")
-    whole = asperity.power_spectrum(surface)
-    assert scene.spectrum == whole
-    assert whole.q1 == np.pi / 2e-5 < whole.wavenumber[-1]  # the coarser side's Nyquist
-    assert scene.inputs["surface"]["window"] == "split-cosine-bell"
-    assert scene.inputs["surface"]["detrend"] == "plane"
-
-
 def test_smaller_cutoff_wins(folder: Path) -> None:
     def q1(keys: str) -> float:
         return load_scene(write(folder, SURFACE + keys + RUBBER + CONDITIONS)).spectrum.q1
@@ -197,33 +187,6 @@ def test_asperities_of_numbers(folder: Path, kind: str, more: str, expected: obj
     table = f"[correction]\nkind = '{kind}'\nz_max_m = 3e-4\nz_min_m = -3e-4\n"
     scene = load_scene(write(folder, SURFACE + RUBBER + CONDITIONS + table + more))
     assert scene.correction == expected
-
-
-ROLLED = SURFACE + "rolloff_per_m = 4000.0\n" + RUBBER + CONDITIONS
-
-
-@pytest.mark.parametrize(
-    ("text", "kind", "q0"),
-    [
-        (SURFACE + RUBBER + CONDITIONS, "greenwood-williamson", 2000.0),
-        (ROLLED, "greenwood-williamson", 4000.0),
-        (ROLLED, "peaks-then-greenwood-williamson", 4000.0),
-        (SCAN + MACRO + RUBBER + CONDITIONS, "greenwood-williamson", 2e4),
-    ],
-)
-def test_macro_asperities_are_recorded_as_the_core_took_them(
-    folder: Path, text: str, kind: str, q0: float
-) -> None:
-    table = f"[correction]\nkind = '{kind}'\nz_max_m = 3e-4\nz_min_m = -3e-4\n"
-    table += "heights_m = [1e-4, 2e-4, 1e-4]\n"
-    scene = load_scene(write(folder, text + table))
-    recorded = scene.inputs["correction"]
-    assert recorded["q0_per_m"] == q0
-    assert recorded["rms_height_m"] == scene.spectrum.rms_height
-    given = f"q0_per_m = {q0!r}\nrms_height_m = {scene.spectrum.rms_height!r}\n"
-    stated = load_scene(write(folder, text + table + given))
-    np.testing.assert_array_equal(scene.friction().mu, stated.friction().mu)
-    assert scene.friction().notes == stated.friction().notes
 
 
 @pytest.mark.parametrize("points", [1, 11])
