@@ -106,7 +106,9 @@ class FrictionMapBatch {
 
   /// Before n points, more than the cells: where they share T0, sums over it once for the cells' polynomials.
   void share_temperature(const MapColumns& points, std::size_t n) {
-    if (map_.steps_ == 0 || map_.is_slanted_ || points.background.size() > 1 || n < map_.info_.cells) return;
+    if (!map_.info_.heat || map_.steps_ == 0 || map_.is_slanted_ || points.background.size() > 1 ||
+        n < map_.info_.cells)
+      return;
     const auto [lowest, highest] = map_.info_.temperature;
     const double background = points.background.empty() ? 0 : points.background[0];
     if (!(background >= lowest && background <= highest)) return;
