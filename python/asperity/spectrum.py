@@ -162,8 +162,14 @@ class SelfAffineSpectrum(_Spectrum, CoreValue):
     q0: float = parameter(FIRST_WAVENUMBER, usual=(10, 1e6))
     q1: float = parameter(LAST_WAVENUMBER)
     rolloff: float | None = parameter(FIRST_WAVENUMBER, default=None)
-    axis_ratio: float = 1.0
-    lay: float = parameter(unit="deg", default=0.0)  # of the key in scenes
+    axis_ratio: float = parameter(default=1.0, usual=(1.0, 6.0), label="Ridges, long to wide")
+    lay: float = parameter(  # of the key in scenes
+        unit="deg",
+        default=0.0,
+        usual=(-90.0, 90.0),
+        shown_unit="°",
+        label="Direction of the ridges",
+    )
 
     @staticmethod
     def from_article(*, h0: float, hurst: float, q0: float, q1: float) -> SelfAffineSpectrum:

@@ -39,6 +39,9 @@ def friction_chart(
     series.append(_line("hysteresis", v, curves.hysteresis[0], COLOURS[0], kind="dashed"))
     if scene.adhesion is not None:
         series.append(_line("adhesion", v, curves.adhesion[0], COLOURS[0], kind="dotted"))
+    if np.any(curves.lateral):
+        across = _line("across, of either sign", v, np.abs(curves.lateral[0]), COLOURS[1])
+        series.append(across)
     if cold is not None and scene.heating is not None:
         series.append(_line("without heat", v, cold.mu[0], _GREY, kind="dashed"))
     for variant, colour in zip(variants, (*COLOURS[1:], _GREY), strict=False):

@@ -1,4 +1,4 @@
-"""The part of the conditions: pressure, temperature, velocities, adhesion, heat."""
+"""The part of the conditions: pressure, temperature, velocities, direction, adhesion, heat."""
 
 from collections.abc import Awaitable, Callable
 from functools import partial
@@ -46,6 +46,9 @@ class ConditionsPart:
             )
             self._temperature()
             self._velocities()
+            degrees = self._state.conditions.get("direction_deg", 0.0)
+            turn = self._set("conditions", "direction_deg")
+            Quantity("Direction of sliding [°]", degrees, (-180, 180), turn, step=1)
             self._correction = CorrectionFields(self._state, self._worker, self._set)
             self._adhesion()
             self._heat()

@@ -50,8 +50,8 @@ def editable(name: str, tables: Tables) -> Tables:
     for key in ("temperature_k", "temperature_c"):  # the slider's place
         if key in rubber:
             conditions[key] = rubber.pop(key)
-    for key in ("pressure_pa", "temperature_k", "temperature_c"):
+    for key in ("pressure_pa", "temperature_k", "temperature_c", "direction_deg"):
         if isinstance(conditions.get(key, 0.0), list | dict):
-            problem = "the page shows one pressure and one temperature: must be a number"
+            problem = "the page shows one pressure, temperature and direction: must be a number"
             raise InvalidInput(Argument(f"[conditions] {key}"), f": {problem}", where=name)
     return {**tables, "rubber": rubber, "conditions": conditions}

@@ -15,7 +15,7 @@ from asperity.scene.scene import check_tables
 Dropped = Sequence[tuple[str, bytes]]  # names as the client has them, and contents
 Tables = dict[str, dict[str, Any]]
 _MOST_TEXT = 2**20  # bytes of a scene
-_FILES = {"surface": ("file",), "rubber": ("master_curve", "shift", "isotherms")}
+_FILES = {"surface": ("file",), "rubber": ("master_curve", "shift", "isotherms", "strain_sweeps")}
 
 
 def opened(dropped: Dropped, folder: Folder) -> tuple[str, Tables, list[str]]:

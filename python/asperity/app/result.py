@@ -277,6 +277,7 @@ def _table(scene: Scene, curves: SceneFriction) -> str:
         "mu": curves.mu[0],
         "hysteresis": curves.hysteresis[0],
         "adhesion": curves.adhesion[0],
+        **({"across": curves.lateral[0]} if scene.knows_directions else {}),
         "A/A0": curves.contact_area[0],
         "numerical error": curves.error_estimate[0],
     }

@@ -17,7 +17,7 @@ from asperity.app.words import in_one_line
 from asperity.app.worker import Found, Worker, in_thread
 from asperity.base.arguments import brief
 from asperity.scene.model import Scene
-from asperity.scene.scan import flat
+from asperity.scene.scan import LAY, flat
 from asperity.scene.surface import SURFACE
 from asperity.surface import HeightMap
 
@@ -76,6 +76,7 @@ class SurfacePart:
                 f'{field} hint="of the points: 10 where it is empty"'
             ).classes("w-full")
             ui.checkbox("Take the self-affine fit instead of the rings", on_change=self._fit)
+            ui.checkbox("Keep the directions of its roughness", on_change=self._directional)
 
     def _law_fields(self) -> None:
         law = self._state.surfaces["law"]
@@ -174,6 +175,10 @@ class SurfacePart:
         self._settings["fit"] = "self-affine" if event.value else None
         await self._use()
 
+    async def _directional(self, event: Any) -> None:
+        self._settings["directional"] = True if event.value else None
+        await self._use()
+
     def _see(self) -> None:
         self._law.set_visibility(self._state.surface == "law")
 
@@ -195,7 +200,7 @@ class SurfacePart:
         spectrum = found.scene.spectrum
         self._facts.set_text(
             f"rms height {1e6 * spectrum.rms_height:.4g} µm, rms slope {spectrum.rms_slope:.3g}, "
-            f"from {spectrum.q0:.4g} to {spectrum.q1:.4g} 1/m"
+            f"from {spectrum.q0:.4g} to {spectrum.q1:.4g} 1/m" + _lay_text(found.scene)
         )
         name = f"Roughness spectrum C(q) over the wavenumber; {self._facts.text}"
         redraw(self._chart, spectrum_chart(found.scene), name)
@@ -215,6 +220,14 @@ class SurfacePart:
 
     def fail(self, error: Error) -> None:
         """The result says it."""
+
+
+def _lay_text(scene: Scene) -> str:
+    """How much steeper it is across its ridges, where it has any."""
+    lay = scene.surface.lay
+    if lay is None or not lay.ratio > LAY:
+        return ""
+    return f"; {lay.ratio:.3g} times as steep across its ridges, at {lay.degrees:.0f}° from x to y"
 
 
 def map_of(scene: Scene) -> tuple[str, str] | None:

@@ -29,7 +29,13 @@ CASES = {
 LABELS = {
     "heating": ["Conductivity [W/(m K)]", "Contact diameter [mm]"],
     "adhesion": ["Shear stress [MPa]", "Reference velocity [mm/s]", "Width"],
-    "law": ["Rms height [µm]", "Hurst exponent H", "q0 [1/m]"],
+    "law": [
+        "Rms height [µm]",
+        "Hurst exponent H",
+        "Ridges, long to wide",
+        "Direction of the ridges [°]",
+        "q0 [1/m]",
+    ],
     "greenwood-williamson": ["q0 of macro-asperities [1/m]", "Least distance of peaks [µm]"],
     "listed peaks": ["q0 of macro-asperities [1/m]"],
     "s-factor": ["Gamma", "Applies to"],
