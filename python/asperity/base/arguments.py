@@ -162,6 +162,12 @@ def covariance_matrix(value: Any) -> Array:
     return frozen(np.array(matrix, order="C"))
 
 
+def known(value: Any) -> Any:
+    """Return what was seen not to be None before."""
+    assert value is not None
+    return value
+
+
 def frozen(array: NDArray[Any]) -> NDArray[Any]:
     """Return the array itself, made read-only."""
     array.setflags(write=False)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, Shape, broadcast, frozen, real_array
+from asperity.base.arguments import Array, Shape, broadcast, frozen, known, real_array
 from asperity.base.diagnostics import Argument, Note, Value, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
@@ -184,7 +184,7 @@ class Friction(Table):
                 variables["background"] = Column(axes, self.cold.temperature, "K", meaning)
         if self.wavenumber is not None:
             coordinates["wavenumber"] = Column(("wavenumber",), self.wavenumber, "1/m")
-            variables["dmu_dlnq"] = Column((*axes, "wavenumber"), _known(self.dmu_dlnq), "1")
+            variables["dmu_dlnq"] = Column((*axes, "wavenumber"), known(self.dmu_dlnq), "1")
             if self.temperature_profile is not None:
                 profile = self.temperature_profile
                 variables["temperature_profile"] = Column((*axes, "wavenumber"), profile, "K")
@@ -240,7 +240,7 @@ def joined(
         name: frozen(np.concatenate([np.ravel(getattr(part, name)) for part in parts])[order])
         for name in names
     }
-    cold = None if first.cold is None else joined([_known(part.cold) for part in parts], shape)
+    cold = None if first.cold is None else joined([known(part.cold) for part in parts], shape)
     shaped = {name: column.reshape(shape) for name, column in columns.items()}
     return Friction._made(shaped, cold=cold)
 
@@ -250,11 +250,6 @@ def _said(name: str) -> tuple[str, str]:
         return OPTIONAL[name]
     metadata = Friction.__dataclass_fields__[name].metadata
     return metadata["unit"], metadata["meaning"]
-
-
-def _known(entry: Any) -> Any:
-    assert entry is not None
-    return entry
 
 
 def _axes(result: Friction) -> tuple[tuple[str, ...], dict[str, tuple[tuple[str, ...], Array]]]:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import known
 from asperity.base.diagnostics import MUST_BE, Argument, Note
 from asperity.rubber import Rubber
 from asperity.scene.model import Scene
@@ -28,14 +29,9 @@ def heat_of_map(scene: Scene) -> dict[str, Any]:
                 Argument("[conditions] temperature"), MUST_BE, allowed, where=scene.path
             )
         return {}
-    lowest, highest = min(map(_known, temperatures)), max(map(_known, temperatures))
+    lowest, highest = min(map(known, temperatures)), max(map(known, temperatures))
     law = scene.built_rubber.shift
     return {"temperature": (lowest, highest), "shift": law, "heating": scene.heating}
-
-
-def _known(temperature: float | None) -> float:
-    assert temperature is not None  # seen to where the scene is read
-    return temperature
 
 
 def rubber_of_map(scene: Scene) -> Rubber:

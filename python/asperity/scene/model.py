@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from asperity._core import OutOfRange, extrapolation_notes
 from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.base.arguments import known
 from asperity.base.celsius import temperature_text
 from asperity.base.codes import FATAL, NOTES
 from asperity.base.diagnostics import Note, fatal_first
@@ -21,11 +22,7 @@ from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
 from asperity.friction import ROUGHLY, Friction, friction
 from asperity.heating import Heating
-from asperity.io.fields import (
-    in_keys,
-    names_of,
-    rename_in_errors,
-)
+from asperity.io.fields import in_keys, names_of, rename_in_errors
 from asperity.results.friction import joined, small_friction_notes
 from asperity.results.gradients import reshaped
 from asperity.results.heat_notes import with_size_of_heat
@@ -33,9 +30,7 @@ from asperity.rubber import Rubber
 from asperity.scan_contact import ScanContact
 from asperity.scene.celsius import all_in_celsius, celsius_in_errors
 from asperity.scene.keys import NAMES, NOTED, UNCERTAINTY
-from asperity.scene.parts import (
-    HEATING_NAMES,
-)
+from asperity.scene.parts import HEATING_NAMES
 from asperity.scene.progress import Progress as Progress
 from asperity.scene.progress import with_contacts
 from asperity.scene.rubber import BuiltRubber
@@ -192,7 +187,7 @@ class Scene:
         remarks += small_friction_notes(np.concatenate([np.ravel(part.mu) for part in parts]))
         named = partial(in_keys, names=NOTED)
         notes = fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in remarks)])
-        slopes = reshaped(_known(parts[0].gradients), shape) if gradients else None
+        slopes = reshaped(known(parts[0].gradients), shape) if gradients else None
         whole = {**vars(joined(parts, shape)), "gradients": slopes}
         return SceneFriction._made(whole, notes=tuple(notes))
 
@@ -241,7 +236,7 @@ class Scene:
         def heated_at(i: int, heating: Heating) -> Friction:
             return friction(
                 self.spectrum,
-                _known(self.built_rubber.at_reference),
+                known(self.built_rubber.at_reference),
                 pressure=pressure[i],
                 velocity=velocity[i],
                 heating=heating,
@@ -272,7 +267,7 @@ class Scene:
             contributions=True,
             **{**self.options, "rtol": ROUGHLY},
         )
-        return _known(result.wavenumber), _known(result.temperature_profile) - self.temperature
+        return known(result.wavenumber), known(result.temperature_profile) - known(self.temperature)
 
     @property
     def asks_for_band(self) -> bool:
@@ -325,7 +320,7 @@ class Scene:
         rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn
         if self.heating is not None:
             options |= {"temperature": self.temperature, "heating": self.heating}
-            rubber = _known(self.built_rubber.drawn_at_reference)
+            rubber = known(self.built_rubber.drawn_at_reference)
         with rename_in_errors(self.path, {**NAMES, **_SAMPLING}, self.typed):
             yield self.surface.drawn, rubber, self.adhesion, options
 
@@ -404,9 +399,8 @@ class Scene:
         self, stress: NDArray[np.float64], wavenumber: float
     ) -> NDArray[np.float64]:
         """P(sigma) [1/Pa] at the first pressure and velocity; only the exact form has one."""
-        options = {
-            key: value for key, value in self.options.items() if key not in ("form", "direction")
-        }
+        kept = self.options.keys() - {"form", "direction"}
+        options = {key: self.options[key] for key in kept}
         with rename_in_errors(self.path, NAMES, self.typed):
             density: NDArray[np.float64] = pressure_distribution(
                 stress,
@@ -419,11 +413,6 @@ class Scene:
                 **options,
             )
         return density
-
-
-def _known(one: Any) -> Any:
-    assert one is not None
-    return one
 
 
 def _share(note: Note) -> float:
