@@ -7,7 +7,8 @@ ASPERITY_DATA is set the scan opd-1 with the isotherms of epdm_70, two numbers f
 scene with nothing free held against points that a scan and a rubber made that were drawn from the
 errors of these. Points scatter by 5 %, at two pressures and `--points` velocities. Printed as
 tables: the share of 95 % intervals that hold the truth, mean of ln(found / true) in standard
-errors, the standard error, and rms of points, of points left out and of the same mu everywhere.
+errors, the standard error, and rms of points, of points left out and of the same mu everywhere. A
+quarter of the trials goes to the measured scene.
 """
 
 import argparse
@@ -48,7 +49,7 @@ def measured(folder: Path) -> dict[str, Any]:
         },
         "conditions": {"pressure_pa": 2e5, "velocity_m_s": 1e-4, "temperature_c": 20.0},
         "correction": {"kind": "partial-contact"},
-        "adhesion": {"shear_stress_pa": 1e6},
+        "adhesion": {"shear_stress_pa": 2e5},
         "uncertainty": {"samples": 100},
     }
 
@@ -133,9 +134,10 @@ def main() -> int:
     if (data := os.environ.get("ASPERITY_DATA")) is None:
         return 0
     tables, velocity = measured(Path(data)), np.geomspace(1e-6, 1e-2, arguments.points)
-    start = {"adhesion.shear_stress_pa": 2e6, "surface.q1_per_m": 7e6}
-    recovered("opd-1, epdm_70", tables, start, velocity, *how)
-    compared(tables, velocity, max(how[0] // 5, 1), how[1])
+    start = {"adhesion.shear_stress_pa": 4e5, "surface.q1_per_m": 7e6}
+    fewer = max(arguments.trials // 4, 1), arguments.seed  # they take ten times as long
+    recovered("opd-1, epdm_70", tables, start, velocity, *fewer)
+    compared(tables, velocity, *fewer)
     return 0
 
 

@@ -32,6 +32,7 @@ METHODS: dict[str, dict[str, Any]] = {  # by name: classes that have the method 
     "height_histogram": {"bins": 4},
     "hysteresis": AT,
     "isotropic": {},
+    "lateral": AT,
     "line_density": {"wavenumber": 5e3},
     "local_peaks": {"min_distance": 1e-3},
     "log10_a_T": {"temperature": 293.0},
