@@ -93,6 +93,7 @@ Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& c
       fitted_(fitted_velocities(spectrum, rubber)),
       heights_(std::holds_alternative<ScanContact>(correction) ? std::nullopt : note_on_heights(spectrum)),
       by_sliding_(std::holds_alternative<PartialContact>(correction)),
+      ridges_(is_directional(spectrum)),
       plain_(std::holds_alternative<NoCorrection>(correction)),
       lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
@@ -186,16 +187,17 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
                               value(lowest_measured_load) +
                               ", that of the boundary-element contacts it was measured on",
                           {"take PartialContact, which was measured at lighter loads"}));
-  for (const auto& [flag, code, regime, error] :
+  for (const auto& [flag, code, regime, error, over_ridges] :
        {std::tuple{slow_, "regime-slow", "slow (loss rises with frequency)",
-                   "1 to 5 % rms (12 where q1/q0 is above 128, 6 over ridges)"},
+                   "1 to 5 % rms (12 where q1/q0 is above 128)", "6 % rms over ridges"},
         {constant_, "regime-constant", "about constant loss tangents",
-         "3 to 7 % rms (1 to 7 where q1/q0 is below 5 or above 128, 7 over ridges)"},
+         "3 to 7 % rms (1 to 7 where q1/q0 is below 5 or above 128)", "7 % rms over ridges"},
         {fast_regime_, "regime-fast", "fast (the modulus outgrows the loss)",
-         "2 to 11 % rms (2 to 15 where q1/q0 is below 5, 8 where it is above 128)"}})
+         "2 to 11 % rms (2 to 15 where q1/q0 is below 5, 8 where it is above 128)", "5 to 11 % rms over ridges"}})
     if (flag)
-      result.push_back(note(code, {"exact sliding contacts of Gaussian surfaces in this regime, " +
-                                   std::string(regime) + ": mu +-" + error + ", the more the lighter the load"}));
+      result.push_back(
+          note(code, {"exact sliding contacts of Gaussian surfaces in this regime, " + std::string(regime) + ": mu +-" +
+                      (ridges_ ? over_ridges : error) + ", the more the lighter the load"}));
   if (heights_) result.push_back(*heights_);
   if (unmeasured_ && !heights_)
     result.push_back(note(

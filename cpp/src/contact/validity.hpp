@@ -61,6 +61,7 @@ class Notes {
   std::optional<FrequencyRange> fitted_;    // [m/s]: v q stays where a Prony series was fitted
   std::optional<Diagnostic> heights_;       // of a correction that knows the spectrum alone
   bool by_sliding_ = false;                 // PartialContact, which was measured on sliding contacts
+  bool ridges_ = false;                     // a spectrum that knows directions
   bool plain_ = false;                      // no correction
   bool slow_ = false, constant_ = false, fast_regime_ = false, unmeasured_ = false;
   bool beyond_fit_ = false;
