@@ -20,7 +20,7 @@ from asperity.base.arguments import (
     of_kind,
     whole,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, valued
+from asperity.base.diagnostics import Argument, Note, fatal_first, valued
 from asperity.contact import Form, Method, contact_model, implausible_notes
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
@@ -115,7 +115,8 @@ def friction(
         hottest.
     gradients : bool
         Also give the slopes of mu over all of these, as `.gradients`, at the cost of some ten
-        curves. Not with GSL's methods or heating.
+        curves. Not with GSL's methods, a spectrum that knows directions, or `ScanContact` and
+        heating at once.
     direction : array_like
         Of sliding [rad], from x (a map's second axis) towards y (its first), by default 0;
         broadcasts with pressure and velocity. It matters to `ScanContact`, whose scan is turned,
@@ -203,23 +204,13 @@ def friction(
         result = _made(core_result, shape, (*solid.notes, *absurd, *along_x))
         result = _with(result, notes=_size(result), **turned)
         if slopes:
-            of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t)
+            of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t, None, which)
             result = _with(result, gradients=gradients_of_core(of, shape))
         if t is None:
             return result
         notes = (*result.notes, *law_notes(law, t))
         return _with(result, temperature=_shaped(t, shape), notes=notes)
     core = of_kind(heating, "heating", Heating)._core
-    if slopes:
-        raise InvalidInput(
-            Argument("gradients"),
-            " = ",
-            valued(True, "True"),
-            MUST_BE,
-            "False with ",
-            Argument("heating"),
-            ", whose T(q) has no slopes yet",
-        )
     if t is None:
         raise InvalidInput(
             Argument("heating"), ": needs temperature= and shift=, from which the rubber is heated"
@@ -241,6 +232,9 @@ def friction(
     if result.wavenumber is not None:
         extras["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
     length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)
+    if slopes:
+        of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t, core, which)
+        extras["gradients"] = gradients_of_core(of, shape)
     extras["sliding_length"] = lambda: _shaped(length(), shape)
     extras["notes"] = (*result.notes, *law_notes(law, np.append(t, hottest)))
     return _with(result, **extras)

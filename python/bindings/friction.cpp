@@ -59,9 +59,12 @@ py::tuple flash_friction_of(const Spectrum& spectrum, const Rubber& rubber, cons
 py::tuple gradients_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                        const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
                        unsigned threads, const std::optional<TemperatureShift>& shift,
-                       const std::optional<Array>& temperature) {
+                       const std::optional<Array>& temperature, const std::optional<Heating>& heating, int branch) {
   Gradients g = released([&] {
     const auto p = span_of(pressure), v = span_of(velocity);
+    if (heating)
+      return gradients(spectrum, rubber, *shift, *heating, model, adhesion, p, v, span_of(*temperature),
+                       static_cast<Branch>(branch), threads);
     return shift ? gradients(spectrum, rubber, *shift, model, adhesion, p, v, span_of(*temperature), threads)
                  : gradients(spectrum, rubber, model, adhesion, p, v, threads);
   });

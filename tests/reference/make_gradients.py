@@ -91,10 +91,10 @@ def changed(scene, path, factor):
     return result
 
 
-def slope(scene, gamma, path, h):
-    """Return d mu / d ln of the number."""
-    mu = [friction(changed(scene, path, np.exp(k * h)), gamma) for k in (-2, -1, 1, 2)]
-    near, far = (mu[2] - mu[1]) / (2 * h), (mu[3] - mu[0]) / (4 * h)
+def slope(mu, h):
+    """Return d mu / dx at 0 of a function mu(x)."""
+    at = [mu(k * h) for k in (-2, -1, 1, 2)]
+    near, far = (at[2] - at[1]) / (2 * h), (at[3] - at[0]) / (4 * h)
     return (4 * near - far) / 3
 
 
@@ -108,7 +108,10 @@ def scene_rows(case, changes):
         for name, path in numbers(scene):
             # the interpolant of a table has kinks over its rows
             h = 1e-3 if path[0] == "table" else 1e-2
-            first, second = slope(scene, gamma, path, h), slope(scene, gamma, path, h / 2)
+            first, second = (
+                slope(lambda x: friction(changed(scene, path, np.exp(x)), gamma), step)  # noqa: B023
+                for step in (h, h / 2)
+            )
             tables.agree("gradients", first, second, 1e-5, scale=mu)
             law = isinstance(scene["surface"], dict)
             rough = (None, None) if law else scene["surface"]

@@ -147,7 +147,8 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
     pressure, velocity = scene["pressure"], scene["velocity"]
     stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * pressure)
     start, end = places[0], places[-1]
-    macro = np.clip(np.log(2 * np.pi / DIAMETER), start, end)
+    macro_wavenumber = scene.get("macro_wavenumber") or 2 * np.pi / DIAMETER
+    macro = np.clip(np.log(macro_wavenumber), start, end)
     grown = start + (end - start) * 1e-9 * growth ** np.arange(np.ceil(9 / np.log10(growth)))
     stops = np.log(scene.get("stops", [1.0]))
     edges = [places, places - 1, places + 1, grown, [macro], stops, np.arange(start, end, longest)]

@@ -10,6 +10,7 @@
 #include "asperity/dma.hpp"
 #include "asperity/export.hpp"
 #include "asperity/friction.hpp"
+#include "asperity/heating.hpp"
 
 namespace asperity {
 
@@ -22,7 +23,8 @@ struct Gradients {
   std::vector<double> storage, loss;       // densities over ln w of d mu / d ln E' and d mu / d ln E''
   std::vector<double> pressure, velocity;  // d mu / d ln p, d mu / d ln v
   std::vector<double> temperature;         // d mu / d T [1/K]; empty without a temperature
-  /// d mu / d ln of a number that an object was made with, or of each of several: points x count.
+  /// d mu / d ln of a number that an object was made with, or of each of several: points x count. The rows of
+  /// StrainFactors are `storage_factors` and `loss_factors`.
   struct OfArgument {
     std::string name;
     std::size_t count;
@@ -46,5 +48,12 @@ ASPERITY_EXPORT Gradients gradients(const Spectrum& spectrum, const Rubber& rubb
                                     const ContactModel& model, const std::optional<Adhesion>& adhesion,
                                     std::span<const double> pressure, std::span<const double> velocity,
                                     std::span<const double> temperature, unsigned threads = 1);
+
+/// The same with the heat that friction makes: T(q) follows. InvalidInput for ScanContact, which has no slopes then.
+ASPERITY_EXPORT Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+                                    const Heating& heating, const ContactModel& model,
+                                    const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
+                                    std::span<const double> velocity, std::span<const double> temperature,
+                                    Branch branch = Branch::coldest, unsigned threads = 1);
 
 }  // namespace asperity

@@ -1,5 +1,7 @@
-// Friction as it would be without the heat that it makes.
+// Friction as it would be without the heat that it makes, and what comes before this heat.
 #pragma once
+
+#include <vector>
 
 #include "asperity/friction.hpp"
 
@@ -14,5 +16,13 @@ Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber,
 
 /// mu_A per contact share (Eq. 23).
 double adhesion_per_share(const Adhesion& adhesion, double pressure, double velocity);
+
+void check_heating(const Heating& heating, const TemperatureShift& shift, const std::optional<Adhesion>& adhesion);
+
+/// The points of a curve side by side, from low to high velocity; whether a point begins a curve.
+std::vector<std::size_t> by_curve(std::span<const double> pressure, std::span<const double> velocity,
+                                  std::span<const double> temperature);
+bool begins(std::span<const std::size_t> order, std::size_t k, std::span<const double> pressure,
+            std::span<const double> temperature);
 
 }  // namespace asperity

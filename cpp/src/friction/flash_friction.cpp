@@ -26,13 +26,6 @@ namespace asperity {
 
 namespace {
 
-void check_heating(const Heating& heating, const TemperatureShift& shift, const std::optional<Adhesion>& adhesion) {
-  validate(heating);
-  if (const auto* const law = std::get_if<WLF>(&shift)) validate(*law);
-  if (heating.interface_share != 1 && !adhesion)
-    refuse("interface_share", heating.interface_share, "1, its default, where there is no adhesion");
-}
-
 /// What there is to say of the points, a bit each.
 struct HeatNotes {
   bool hot = false, wide = false, several = false, crowded = false;
@@ -82,16 +75,6 @@ HeatNotes notes_of(double rise, double velocity, int branches, double macro_area
   const double diffusivity = heating.conductivity / (heating.density * heating.heat_capacity);
   const bool slow = velocity * heating.contact_diameter / 2 / diffusivity < least_peclet;
   return {rise > published_rise, rise > telling_rise && slow, branches > 1, macro_area > crowded_area};
-}
-
-/// The points of a curve side by side, from low to high velocity.
-std::vector<std::size_t> by_curve(std::span<const double> pressure, std::span<const double> velocity,
-                                  std::span<const double> temperature) {
-  std::vector<std::size_t> order(velocity.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {},
-                           [&](std::size_t i) { return std::tuple(temperature[i], pressure[i], velocity[i]); });
-  return order;
 }
 
 void add_contributions(const FlashSolver& solver, FlashFriction& f, std::size_t i) {
@@ -147,13 +130,28 @@ FlashFriction cleared(Friction cold, std::size_t n) {
   return f;
 }
 
-/// Whether a point begins a curve.
+}  // namespace
+
+void check_heating(const Heating& heating, const TemperatureShift& shift, const std::optional<Adhesion>& adhesion) {
+  validate(heating);
+  if (const auto* const law = std::get_if<WLF>(&shift)) validate(*law);
+  if (heating.interface_share != 1 && !adhesion)
+    refuse("interface_share", heating.interface_share, "1, its default, where there is no adhesion");
+}
+
+std::vector<std::size_t> by_curve(std::span<const double> pressure, std::span<const double> velocity,
+                                  std::span<const double> temperature) {
+  std::vector<std::size_t> order(velocity.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {},
+                           [&](std::size_t i) { return std::tuple(temperature[i], pressure[i], velocity[i]); });
+  return order;
+}
+
 bool begins(std::span<const std::size_t> order, std::size_t k, std::span<const double> pressure,
             std::span<const double> temperature) {
   return k == 0 || pressure[order[k - 1]] != pressure[order[k]] || temperature[order[k - 1]] != temperature[order[k]];
 }
-
-}  // namespace
 
 FlashFriction friction(const Spectrum& given, const Rubber& rubber, const TemperatureShift& shift,
                        const Heating& heating, const ContactModel& model, const std::optional<Adhesion>& adhesion,

@@ -10,9 +10,10 @@
 
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
-#include "contact/correction.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
+#include "friction/before_heating.hpp"
 #include "friction/gradient_level.hpp"
+#include "friction/hot_gradient.hpp"
 #include "friction/scan_friction.hpp"
 #include "numerics/parallel_for.hpp"
 #include "spectrum/table_surface.hpp"
@@ -51,35 +52,13 @@ VectorXd weights_of(const std::vector<double>& rows) {
   return result;
 }
 
-ShiftGradient shift_gradient(const GradientScene& scene, const GradientPoint& point) {
-  const auto shift = [&](const Spectrum& spectrum, double pressure) {
-    return affine_shift(scene.model.correction, spectrum, scene.rubber, pressure, point.velocity * point.a_T,
-                        scene.model.poisson_ratio)
-        .p;
-  };
-  ShiftGradient result;
-  result.p = shift(scene.spectrum, point.pressure);
-  const std::optional<double> macro = asperity_wavenumber(scene.model.correction, scene.spectrum);
-  if (!macro || !std::isfinite(result.p)) return result;
-  result.macro_wavenumber = *macro;
-  constexpr double step = 1e-5;
-  const auto slope = [](double less, double more) { return std::log(more / less) / (2 * step); };
-  result.pressure =
-      slope(shift(scene.spectrum, point.pressure * (1 - step)), shift(scene.spectrum, point.pressure * (1 + step)));
-  const auto higher = [&](double factor) { return scaled(scene.spectrum, factor * factor); };
-  result.rms_height = slope(shift(higher(1 - step), point.pressure), shift(higher(1 + step), point.pressure));
-  if (const auto* const law = std::get_if<SelfAffineSpectrum>(&scene.spectrum))
-    for (std::size_t k = 0; k < law_arguments(*law).size(); ++k)
-      result.law.push_back(slope(shift(changed_law(*law, k, 1 - step), point.pressure),
-                                 shift(changed_law(*law, k, 1 + step), point.pressure)));
-  return result;
-}
-
 /// How far two levels are apart at most, of a density in its integral, from which all other slopes follow.
 double apart(const PointGradient& a, const PointGradient& b) {
   double most = std::fmax(b.missed, std::fmax(std::fabs(a.pressure - b.pressure), std::fabs(a.velocity - b.velocity)));
   for (const auto density : {&PointGradient::spectrum, &PointGradient::storage, &PointGradient::loss})
     most = std::fmax(most, (a.*density - b.*density).cwiseAbs().sum());
+  for (std::size_t k = 0; k < a.arguments.size(); ++k)
+    most = std::fmax(most, (a.arguments[k] - b.arguments[k]).cwiseAbs().sum());
   return most;
 }
 
@@ -91,17 +70,76 @@ void check(const Spectrum& spectrum, const ContactModel& model, const std::optio
   if (threads == 0) throw InvalidInput(argument("threads") + " = " + word("0") + must_be() + "1 or more");
   check_gauss(model.method, "with gradients, which GSL's methods do not give");
   refuse_directions(spectrum, "gradient");
-  if (model.strain_factors)
-    throw InvalidInput(argument("strain_factors") + " = " + word("StrainFactors") + must_be() +
-                       "None with gradients, which do not know how the strain follows the roughness");
 }
+
+/// The results of all points.
+class Table {
+ public:
+  Table(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+        const std::optional<Adhesion>& adhesion, double slowest, double fastest)
+      : surface_(spectrum),
+        rows_(rows_of(spectrum)),
+        modulus_(rubber, slowest * band(spectrum)[0],
+                 fastest * band(spectrum)[1] *
+                     (std::holds_alternative<PartialContact>(model.correction) ? partial_contact::tail_end : 1)),
+        scene_{spectrum, rubber, model, adhesion, surface_.get(), rows_, modulus_},
+        of_rows_(weights_of(rows_)),
+        of_modulus_(weights_of(modulus_.angular_frequency())) {
+    if (const auto* const law = std::get_if<SelfAffineSpectrum>(&spectrum)) add(law_arguments(*law));
+    if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
+      add({"equilibrium_modulus"});
+      add({"moduli", "relaxation_times"}, series->moduli().size());
+    }
+    if (model.strain_factors) {
+      add({"strain_per_slope"});
+      add({"storage_factors", "loss_factors"}, model.strain_factors->strain().size());
+    }
+    if (adhesion) add({"shear_stress", "reference_velocity", "width"});
+  }
+
+  [[nodiscard]] const GradientScene& scene() const { return scene_; }
+  void add(const std::vector<std::string>& names, std::size_t count = 1) {
+    for (const std::string& name : names) g_.arguments.push_back({name, count, {}});
+  }
+  void begin(std::size_t size, bool with_temperature) {
+    g_.wavenumber = rows_;
+    g_.angular_frequency = modulus_.angular_frequency();
+    g_.spectrum.assign(size * rows_.size(), 0);
+    for (auto* const density : {&g_.storage, &g_.loss}) density->assign(size * g_.angular_frequency.size(), 0);
+    for (auto* const column : {&g_.pressure, &g_.velocity, &g_.error_estimate}) column->assign(size, 0);
+    if (with_temperature) g_.temperature.assign(size, 0);
+    for (Gradients::OfArgument& one : g_.arguments) one.values.assign(size * one.count, 0);
+  }
+  void put(std::size_t i, const PointGradient& coarse, const PointGradient& fine) {
+    const auto density = [&](const VectorXd& of, const VectorXd& weights, std::vector<double>& to) {
+      const auto n = static_cast<std::size_t>(weights.size());
+      VectorXd::Map(&to[i * n], weights.size()) = of.cwiseQuotient(weights);
+    };
+    density(fine.spectrum, of_rows_, g_.spectrum);
+    density(fine.storage, of_modulus_, g_.storage);
+    density(fine.loss, of_modulus_, g_.loss);
+    g_.pressure[i] = fine.pressure;
+    g_.velocity[i] = fine.velocity;
+    if (!g_.temperature.empty()) g_.temperature[i] = fine.temperature;
+    for (std::size_t k = 0; k < g_.arguments.size(); ++k)
+      std::ranges::copy(fine.arguments[k], &g_.arguments[k].values[i * g_.arguments[k].count]);
+    g_.error_estimate[i] = apart(coarse, fine);
+  }
+  [[nodiscard]] Gradients take() { return std::move(g_); }
+
+ private:
+  SurfaceSegments surface_;
+  std::vector<double> rows_;
+  ModulusGradient modulus_;
+  GradientScene scene_;
+  VectorXd of_rows_, of_modulus_;
+  Gradients g_;
+};
 
 /// `point_of` has the pressure, velocity and a_T of each point.
 template <class PointOf>
 Gradients solve(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                 const std::optional<Adhesion>& adhesion, std::size_t size, PointOf point_of, unsigned threads) {
-  const SurfaceSegments surface(spectrum);
-  const auto [q0, q1] = band(spectrum);
   double slowest = HUGE_VAL, fastest = 0;
   bool with_temperature = false;
   for (std::size_t i = 0; i < size; ++i) {
@@ -110,62 +148,25 @@ Gradients solve(const Spectrum& spectrum, const Rubber& rubber, const ContactMod
     fastest = std::fmax(fastest, point.velocity * point.a_T);
     with_temperature |= point.shift_rate.has_value();
   }
-  const bool edges = std::holds_alternative<PartialContact>(model.correction);
-  const std::vector<double> rows = rows_of(spectrum);
-  const ModulusGradient modulus(rubber, slowest * q0, fastest * q1 * (edges ? partial_contact::tail_end : 1));
-  GradientScene scene{spectrum, rubber, model, adhesion, surface.get(), rows, modulus, {}, {}};
-  if (const auto* const law = std::get_if<SelfAffineSpectrum>(&spectrum)) scene.names = law_arguments(*law);
-  scene.counts.assign(scene.names.size(), 1);
-  const auto add = [&](const char* name, std::size_t count) {
-    scene.names.emplace_back(name);
-    scene.counts.push_back(count);
-  };
-  if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
-    add("equilibrium_modulus", 1);
-    add("moduli", series->moduli().size());
-    add("relaxation_times", series->moduli().size());
-  }
-  if (adhesion)
-    for (const char* const name : {"shear_stress", "reference_velocity", "width"}) add(name, 1);
-
-  Gradients g;
-  g.wavenumber = rows;
-  g.angular_frequency = modulus.angular_frequency();
-  const std::size_t n = rows.size(), m = g.angular_frequency.size();
-  g.spectrum.assign(size * n, 0);
-  for (auto* const density : {&g.storage, &g.loss}) density->assign(size * m, 0);
-  for (auto* const column : {&g.pressure, &g.velocity, &g.error_estimate}) column->assign(size, 0);
-  if (with_temperature) g.temperature.assign(size, 0);
-  for (std::size_t k = 0; k < scene.names.size(); ++k)
-    g.arguments.push_back({scene.names[k], scene.counts[k], std::vector<double>(size * scene.counts[k], 0)});
-  const VectorXd of_rows = weights_of(rows), of_modulus = weights_of(g.angular_frequency);
-
+  Table table(spectrum, rubber, model, adhesion, slowest, fastest);
+  table.begin(size, with_temperature);
   constexpr std::size_t block = 20;
   const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(size / block, 1, threads));
   std::vector<std::deque<GradientLevel>> levels(workers);
   in_blocks(workers, size, workers == 1 ? size : block, [&](unsigned worker, std::size_t begin, std::size_t end) {
     if (levels[worker].empty())
-      for (const auto number : {std::size_t{0}, std::size_t{1}}) levels[worker].emplace_back(scene, number);
+      for (const auto number : {std::size_t{0}, std::size_t{1}}) levels[worker].emplace_back(table.scene(), number);
     for (std::size_t i = begin; i < end; ++i) {
       heed();
       const GradientPoint point = point_of(i);
-      const ShiftGradient shift = shift_gradient(scene, point);
+      const ShiftGradient shift =
+          shift_gradient(table.scene(), point.pressure, point.velocity * point.a_T, point.shift_rate.value_or(0));
       if (!std::isfinite(shift.p)) continue;  // without contact
-      at_point(point.pressure, point.velocity, [&] {
-        const PointGradient coarse = levels[worker][0](point, shift), fine = levels[worker][1](point, shift);
-        VectorXd::Map(&g.spectrum[i * n], static_cast<Index>(n)) = fine.spectrum.cwiseQuotient(of_rows);
-        VectorXd::Map(&g.storage[i * m], static_cast<Index>(m)) = fine.storage.cwiseQuotient(of_modulus);
-        VectorXd::Map(&g.loss[i * m], static_cast<Index>(m)) = fine.loss.cwiseQuotient(of_modulus);
-        g.pressure[i] = fine.pressure;
-        g.velocity[i] = fine.velocity;
-        if (point.shift_rate) g.temperature[i] = fine.by_a_T * *point.shift_rate;
-        for (std::size_t k = 0; k < g.arguments.size(); ++k)
-          std::ranges::copy(fine.arguments[k], &g.arguments[k].values[i * g.arguments[k].count]);
-        g.error_estimate[i] = apart(coarse, fine);
-      });
+      at_point(point.pressure, point.velocity,
+               [&] { table.put(i, levels[worker][0](point, shift), levels[worker][1](point, shift)); });
     }
   });
-  return g;
+  return table.take();
 }
 
 std::vector<double> times(std::span<const double> values, double log_factor) {
@@ -270,6 +271,52 @@ Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const Temper
       friction(scan.spectrum(), rubber, shift, scan.model(), adhesion, pressure, velocity, temperature, false, threads),
       without, g, friction_at);
   return g;
+}
+
+Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
+                    const Heating& heating, const ContactModel& model, const std::optional<Adhesion>& adhesion,
+                    std::span<const double> pressure, std::span<const double> velocity,
+                    std::span<const double> temperature, Branch branch, unsigned threads) {
+  check(spectrum, model, adhesion, pressure, velocity, threads);
+  require_same_size("temperature", temperature.size(), "velocity", velocity.size());
+  check_heating(heating, shift, adhesion);
+  if (std::holds_alternative<ScanContact>(model.correction))
+    throw InvalidInput(argument("correction") + " = " + word("ScanContact") + must_be() +
+                       "another where gradients are asked for with " + argument("heating") +
+                       ": T(q) is the theory's, and the ratios to it have no slopes over its heat");
+  // the modulus is asked for at temperatures up to the hottest
+  ContactModel roughly = model;
+  roughly.rtol = std::fmax(model.rtol, 1e-3);
+  const FlashFriction before = friction(spectrum, rubber, shift, heating, roughly, adhesion, pressure, velocity,
+                                        temperature, branch, false, threads);
+  double slowest = HUGE_VAL, fastest = 0;
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    const auto at = [&](double one) { return velocity[i] * std::pow(10, held_shift(shift, one).log10_a_T); };
+    slowest = std::fmin(slowest, at(before.hot.temperature[i]));
+    fastest = std::fmax(fastest, at(temperature[i]));
+  }
+  Table table(spectrum, rubber, model, adhesion, slowest, fastest);
+  table.add(heating_arguments(heating, adhesion.has_value()));
+  table.begin(velocity.size(), true);
+  const HeatScene heat{
+      spectrum, table.scene().surface, rubber, shift, heating, model, macro_wavenumber(heating, spectrum)};
+  const std::vector<std::size_t> order = by_curve(pressure, velocity, temperature);
+  constexpr std::size_t block = 64;
+  const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(order.size() / block, 1, threads));
+  std::vector<std::optional<HotGradient>> solvers(workers);
+  in_blocks(workers, order.size(), block, [&](unsigned worker, std::size_t begin, std::size_t end) {
+    if (!solvers[worker]) solvers[worker].emplace(table.scene(), heat, branch);
+    for (std::size_t k = begin; k < end; ++k) {
+      heed();
+      const std::size_t i = order[k];
+      if (k == begin || begins(order, k, pressure, temperature)) solvers[worker]->forget();
+      at_point(pressure[i], velocity[i], temperature[i], [&] {
+        const auto found = (*solvers[worker])({pressure[i], velocity[i], 1, {}, temperature[i]});
+        if (found) table.put(i, (*found)[0], (*found)[1]);
+      });
+    }
+  });
+  return table.take();
 }
 
 }  // namespace asperity

@@ -20,14 +20,22 @@ void AngularColumns::resize(std::size_t n) {
 AngularSlopes::AngularSlopes(const Rubber& rubber, std::vector<ModulusFactors> factors, Rings rings)
     : rubber_(rubber), unlimited_(unlimited(rubber)), factors_(std::move(factors)), rings_(std::move(rings)) {}
 
-void AngularSlopes::solve(std::span<const double> w, bool sloped, AngularColumns& result) {
+void AngularSlopes::operator()(FeltModulus& felt) {
+  constexpr double apart = 0.02;  // of ln w
+  const bool measured = std::holds_alternative<MasterCurve>(rubber_);
+  if (measured) solve(felt.frequency, true, felt.columns, apart);
+  solve(felt.frequency, true, measured ? felt.beside : felt.columns);
+  felt.loss_part.assign(of_loss_.begin(), of_loss_.begin() + std::ssize(factors_));
+}
+
+void AngularSlopes::solve(std::span<const double> w, bool sloped, AngularColumns& result, double step) {
   const std::size_t n = w.size();
   if (!factors_.empty()) {
     of_loss_.resize((harmonics_ + 1) * n);
     loss_slope_.resize(n);
   }
   if (const auto* const curve = std::get_if<MasterCurve>(&rubber_))
-    of_curve(*curve, w, sloped, result);
+    of_curve(*curve, w, sloped, step, result);
   else
     of_series(w, sloped, result);
   result.across.assign(rings_.count > 0 ? n : 0, 0.0);
@@ -91,8 +99,8 @@ void AngularSlopes::of_series(std::span<const double> w, bool sloped, AngularCol
   if (!factors_.empty()) loss_part(series, w, of_loss_, sloped ? std::span<double>(loss_slope_) : std::span<double>());
 }
 
-void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w, bool sloped, AngularColumns& result) {
-  constexpr double step = 1e-4;  // in ln w: errors of 1e-9 by the step and 1e-8 by the table's 1e-12
+void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w, bool sloped, double step,
+                             AngularColumns& result) {
   const std::size_t n = w.size();
   result.resize(n);
   const double lowest = curve.lowest_frequency(), highest = curve.highest_frequency();
@@ -104,7 +112,7 @@ void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w
   if (!sloped) return;
   for (const std::size_t side : {0, 1}) {
     for (auto* column : {&around_[side], &i1_[side], &i2_[side]}) column->resize(n);
-    const double factor = side == 0 ? 1 - step : 1 + step;
+    const double factor = std::exp(side == 0 ? -step : step);
     for (std::size_t i = 0; i < n; ++i) around_[side][i] = inside(w[i] * factor);
     (void)curve.angular_integrals(around_[side], i1_[side], i2_[side]);
   }

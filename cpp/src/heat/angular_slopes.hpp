@@ -1,6 +1,7 @@
 // I1 and I2 of a rubber with their slopes over ln w, at any frequency.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,6 +16,17 @@ struct AngularColumns {
   void resize(std::size_t n);
 };
 
+/// What nodes of a grid feel of a rubber: at reduced frequencies v q a_T, with the part of I2 that the loss modulus has
+/// before factors of strain, empty without these; d ln a_T / dT [1/K], and d ln w / d ln q of waves that go along with
+/// q.
+struct FeltModulus {
+  std::vector<double> frequency;
+  AngularColumns columns;
+  std::vector<double> loss_part;
+  Eigen::VectorXd rate, along;
+  AngularColumns beside = {};  // of a master curve the same with slopes over a hundredth of their step
+};
+
 /// While a temperature is searched for, frequencies may leave those that the rubber knows: a fitted series goes on, and
 /// a master curve is held at its end. Whether the result stays inside is for the caller to check.
 class AngularSlopes {
@@ -26,11 +38,16 @@ class AngularSlopes {
   /// I1 and I2 alone.
   void values(std::span<const double> w, AngularColumns& result) { solve(w, false, result); }
   void operator()(std::span<const double> w, AngularColumns& result) { solve(w, true, result); }
+  /// The columns and the loss part of what nodes feel at its frequencies. Slopes of measured rows change from row to
+  /// row: they are means over as much as nodes are apart.
+  void operator()(FeltModulus& felt);
 
  private:
-  void solve(std::span<const double> w, bool sloped, AngularColumns& result);
+  /// The step is that of differences of a curve, in ln w: by default errors of 1e-9 by it and 1e-8 by the table's
+  /// 1e-12.
+  void solve(std::span<const double> w, bool sloped, AngularColumns& result, double step = 1e-4);
   void of_series(std::span<const double> w, bool sloped, AngularColumns& result);
-  void of_curve(const MasterCurve& curve, std::span<const double> w, bool sloped, AngularColumns& result);
+  void of_curve(const MasterCurve& curve, std::span<const double> w, bool sloped, double step, AngularColumns& result);
   void add_rings(std::span<const double> w, bool sloped, AngularColumns& result);
 
   const Rubber& rubber_;

@@ -5,10 +5,12 @@
 // frequencies. All derivatives are closed. B. N. J. Persson, J. Phys.: Condens. Matter 18, 7789 (2006).
 #include "heat/flash_map.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "contact/correction.hpp"
 #include "rubber/unlimited_rubber.hpp"
 
 namespace asperity {
@@ -84,6 +86,7 @@ void FlashMap::operator()(const VectorXd& theta) { pass(theta, {}); }
 void FlashMap::operator()(const VectorXd& theta, double log_kappa) { pass(theta, log_kappa); }
 
 void FlashMap::pass(const VectorXd& theta, std::optional<double> log_kappa) {
+  theta_ = theta;
   const VectorXd temperature = (grid_.to_nodes() * theta).array() + point_.temperature;
   for (std::size_t j = 0; j < reduced_.size(); ++j)
     take_frequency(j, held_shift(scene_.shift, temperature[static_cast<Index>(j)]));
@@ -118,21 +121,25 @@ double FlashMap::macro_share(const ContactHeat& contact) const {
   return heat_at(at_macro_ * kernel_, at_macro_.dot(surface_), contact) / last_heat(contact);
 }
 
-/// I2 of all nodes at T0.
-VectorXd FlashMap::cold_i2() {
-  std::vector<double> reduced = reduced_;
-  VectorXd rate = rate_;
+FeltModulus FlashMap::felt_cold() {
+  FeltModulus cold{reduced_, {}, {}, rate_, VectorXd::Ones(rate_.size())};
   const ShiftValue shift = held_shift(scene_.shift, point_.temperature);
   for (std::size_t j = 0; j < reduced_.size(); ++j) take_frequency(j, shift);
-  AngularColumns cold;
-  angular_.values(reduced_, cold);
-  reduced_.swap(reduced);
-  rate_.swap(rate);
-  return Eigen::Map<const VectorXd>(cold.i2.data(), rate_.size());
+  reduced_.swap(cold.frequency);
+  angular_(cold);
+  rate_.swap(cold.rate);
+  return cold;
+}
+
+/// I2 of all nodes at T0.
+VectorXd FlashMap::cold_i2() {
+  const FeltModulus cold = felt_cold();
+  return Eigen::Map<const VectorXd>(cold.columns.i2.data(), rate_.size());
 }
 
 void FlashMap::pass(const ShiftValue& also_felt, std::optional<double> log_kappa) {
   differentiated_ = sloped_ = false;
+  also_felt_ = also_felt;
   angular_.values(reduced_, columns_);
   shift_ = hot_shift(scene_.model.correction, scene_.spectrum, scene_.rubber, also_felt, scene_.model.poisson_ratio,
                      point_.pressure, point_.velocity);
@@ -228,6 +235,90 @@ MatrixXd FlashMap::slopes_along(const MatrixXd& directions, PartSlopes& of_parts
   if (!scene_.heating.macro_area) result -= rise_ * (slopes.macro / macro_area_);
   of_parts.hysteresis = mu_factor_ * slopes.part.colwise().sum();
   of_parts.area = slopes.area;
+  return result;
+}
+
+FeltModulus FlashMap::felt() {
+  const ContactGrid::Beyond& beyond = grid_.beyond();
+  FeltModulus result{reduced_, {}, {}, rate_, VectorXd::Ones(rate_.size())};
+  angular_(result);
+  constexpr double step = 1e-4;
+  for (std::size_t j = beyond.first; beyond.end && j <= beyond.first + beyond.count; ++j) {
+    const double q = grid_.wavenumber()[j];
+    const RowVectorXd row = grid_.row_at(q * std::exp(step)) - grid_.row_at(q * std::exp(-step));
+    const auto at = static_cast<Index>(j);
+    result.along[at] += rate_[at] * row.dot(theta_) / (2 * step);
+  }
+  return result;
+}
+
+double FlashMap::also_felt_along() const {
+  const std::optional<double> q = asperity_wavenumber(scene_.model.correction, scene_.spectrum);
+  if (!q || grid_.lone_point()) return 0;
+  constexpr double step = 1e-4;
+  const double lower = std::fmax(*q * (1 - step), std::exp(grid_.lowest())),
+               upper = std::fmin(*q * (1 + step), std::exp(grid_.highest()));
+  return std::numbers::ln10 * also_felt_.slope * (grid_.row_at(upper) - grid_.row_at(lower)).dot(theta_) /
+         std::log(upper / lower);
+}
+
+/// lambda F with another l of the kernel.
+double FlashMap::heat_at_length(const VectorXd& lambda, double log_length) const {
+  Heating heating = scene_.heating;
+  heating.conductivity *= std::exp(2 * log_length);
+  MatrixXd kernel;
+  VectorXd surface;
+  HeatKernelTable table = table_;
+  table.fill(heating, point_.velocity, kernel, surface);
+  return 2 * per_flux_ * mu_factor_ / macro_area_ * lambda.dot(kernel * contact_->part()) +
+         heat_of_surface() * lambda.dot(surface);
+}
+
+/// lambda F of the edges alone, all at another wavenumber.
+double FlashMap::edges_along(const VectorXd& lambda, double log_wavenumber) const {
+  const HeatKernel kernel(scene_.heating, point_.velocity);
+  std::vector<HeatKernel::Place> felt;
+  for (const double q : grid_.temperature_points()) felt.push_back(kernel.at(q));
+  double sum = 0;
+  for (std::size_t j = grid_.beyond().first; j < grid_.beyond().first + grid_.beyond().count; ++j) {
+    const double q = grid_.wavenumber()[j] * std::exp(log_wavenumber);
+    const HeatKernel::Place heated = kernel.at(q);
+    for (std::size_t i = 0; i < felt.size(); ++i)
+      sum += lambda[static_cast<Index>(i)] * q * kernel(felt[i], heated) * contact_->part()[static_cast<Index>(j)];
+  }
+  return 2 * per_flux_ * mu_factor_ / macro_area_ * sum;
+}
+
+FlashMap::Adjoint FlashMap::adjoint() {
+  Adjoint result;
+  const auto n = static_cast<Index>(grid_.size());
+  if (!touches()) return result;
+  const MatrixXd less = MatrixXd::Identity(rise_size(), rise_size()) - jacobian();
+  const VectorXd lambda = less.transpose().partialPivLu().solve(slope_of_mu().transpose());
+  const double by_depth = 2 * per_flux_ * mu_factor_ / macro_area_;
+  const VectorXd of_sources = kernel_.transpose() * lambda;
+  result.depth = by_depth * of_sources.dot(contact_->part());
+  result.surface = heat_of_surface() * lambda.dot(surface_);
+  ContactNumber number;
+  number.by_part = VectorXd::Constant(n, mu_factor_) + by_depth * of_sources;
+  number.by_area = point_.adhesion_per_area;
+  if (const double area = contact_->area(); area > 0) number.by_area += result.surface / area;
+  if (!scene_.heating.macro_area) number.by_macro = -(result.depth + result.surface) / macro_area_;
+  result.by_area = number.by_area;
+  contact_->gradient(number, result.of);
+  constexpr double step = 1e-4;
+  result.length = (heat_at_length(lambda, step) - heat_at_length(lambda, -step)) / (2 * step);
+  if (grid_.beyond().count > 0) result.end = (edges_along(lambda, step) - edges_along(lambda, -step)) / (2 * step);
+  if (number.by_macro != 0) {
+    const double q = scene_.macro_wavenumber, square = q * q, softer = mu_factor_ / (4 * point_.pressure);
+    const auto segment = std::ranges::lower_bound(scene_.surface, q, {}, &Segment::b);
+    const bool inside = segment != scene_.surface.end() && q >= segment->a;
+    double w = reduced_frequency(q, point_.temperature + at_macro_.dot(theta_));
+    if (known_) w = std::clamp(w, known_->lowest, known_->highest);
+    if (inside)
+      result.macro_wavenumber =
+          result.of.macro * square * square * segment->density(q) * waves_(w, q).i2 / (8 * softer * softer);
+  }
   return result;
 }
 

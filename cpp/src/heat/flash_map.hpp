@@ -77,6 +77,23 @@ class FlashMap {
   [[nodiscard]] Eigen::RowVectorXd slope_of_mu();
   /// The Jacobian times a profile.
   [[nodiscard]] Eigen::VectorXd along(const Eigen::VectorXd& direction);
+  /// The slopes of mu of the last pass, at its solution, over all that it is made of but the temperatures, which
+  /// follow: those of mu + lambda F at fixed temperatures, lambda = (1 - dF / dtheta)^-T dmu / dtheta.
+  struct Adjoint {
+    ContactGradient of;
+    double by_area = 0;             // over A / A0 itself
+    double depth = 0, surface = 0;  // lambda F, as hysteresis and as adhesion make it
+    double length = 0;              // over ln l of the kernel
+    double macro_wavenumber = 0;    // over ln q_m
+    double end = 0;                 // over ln q_e, with which the edges' nodes move as sources of heat
+  };
+  [[nodiscard]] Adjoint adjoint();
+  /// Of all nodes at T(q), and at T0.
+  [[nodiscard]] FeltModulus felt();
+  [[nodiscard]] FeltModulus felt_cold();
+  /// a_T of what the affine shift feels.
+  [[nodiscard]] const ShiftValue& also_felt() const { return also_felt_; }
+  [[nodiscard]] double also_felt_along() const;  // d ln a_T / d ln q there
   /// How many temperature points there are.
   [[nodiscard]] Eigen::Index rise_size() const { return grid_.to_nodes().cols(); }
   [[nodiscard]] double hysteresis() const { return hysteresis_; }
@@ -112,6 +129,8 @@ class FlashMap {
   [[nodiscard]] double heat_at(const Eigen::Ref<const Eigen::RowVectorXd, 0, Eigen::InnerStride<>>& kernel,
                                double surface, const ContactHeat& contact) const;
   void take_slopes();
+  [[nodiscard]] double heat_at_length(const Eigen::VectorXd& lambda, double log_length) const;
+  [[nodiscard]] double edges_along(const Eigen::VectorXd& lambda, double log_wavenumber) const;
   [[nodiscard]] Eigen::MatrixXd slopes_along(const Eigen::MatrixXd& directions, PartSlopes& of_parts,
                                              const std::optional<Eigen::RowVectorXd>& log_kappa = {},
                                              Eigen::RowVectorXd* rule = nullptr);
@@ -136,6 +155,8 @@ class FlashMap {
   Eigen::VectorXd rate_;  // d ln a_T / dT at the nodes, 0 where the frequency is held
   AngularColumns columns_;
   HotShift shift_;
+  ShiftValue also_felt_{};
+  Eigen::VectorXd theta_;  // of the last pass
   Eigen::VectorXd rise_;
   double hysteresis_ = 0, macro_area_ = 1, rest_of_harmonics_ = 0;
   bool differentiated_ = false, sloped_ = false;

@@ -40,6 +40,8 @@ class FlashSolver {
 
   /// The grid on which the last point was solved, with the rise at its temperature points [K].
   [[nodiscard]] FlashMap& finest_map() { return map_of(finest_); }
+  /// The one before it, at its own solution.
+  [[nodiscard]] FlashMap& coarser_map() { return map_of(finest_ - 1); }
   [[nodiscard]] const Eigen::VectorXd& rise() const { return theta_; }
   /// Of the last point: T(q) [K], dmu_H/dln q, and mu_H from each panel with its ends [1/m].
   [[nodiscard]] double temperature_at(double wavenumber) const;

@@ -15,38 +15,56 @@ namespace asperity {
 
 namespace {
 
+constexpr double near = 0.2;    // relative distance of two times
+constexpr double most = 1e100;  // of x, beyond which nothing changes
+
 struct Pair {
   std::size_t k, l;
   double weight;  // E_k E_l, twice where k and l differ
 };
 
+/// Two terms whose times differ: `weight` (s_k - s_l) with 2 E_k E_l x_k x_l / (x_k^2 - x_l^2), and d ln weight / d ln(
+/// tau_l / tau_k).
+struct FarPair {
+  std::size_t k, l;
+  double weight, slope;
+};
+
+/// All pairs, each once.
+template <class Near, class Far>
+void visit_pairs(const PronySeries& series, Near near_pair, Far far_pair) {
+  const std::vector<double>&e = series.moduli(), &tau = series.relaxation_times();
+  for (std::size_t k = 0; k < e.size(); ++k) {
+    near_pair(Pair{k, k, e[k] * e[k]});
+    for (std::size_t l = 0; l < k; ++l) {
+      const double ratio = tau[l] / tau[k], apart = (1 - ratio) * (1 + ratio);
+      if (std::fabs(1 - ratio) < near)
+        near_pair(Pair{k, l, 2 * e[k] * e[l]});
+      else if (std::isfinite(apart))
+        far_pair(FarPair{k, l, 2 * e[k] * e[l] * ratio / apart, (1 + ratio * ratio) / apart});
+    }
+  }
+}
+
 }  // namespace
 
 void loss_part(const PronySeries& series, std::span<const double> w, std::span<double> part, std::span<double> slope) {
-  constexpr double near = 0.2;  // relative distance of two times
-  const std::vector<double>&e = series.moduli(), &tau = series.relaxation_times();
-  const std::size_t terms = e.size();
+  const std::vector<double>& tau = series.relaxation_times();
+  const std::size_t terms = tau.size();
   std::vector<double> weight(terms), x(terms), r(terms);
   std::vector<Pair> pairs;
-  for (std::size_t k = 0; k < terms; ++k) {
-    pairs.push_back({k, k, e[k] * e[k]});
-    for (std::size_t l = 0; l < k; ++l) {
-      const double ratio = tau[l] / tau[k], apart = (1 - ratio) * (1 + ratio);
-      if (std::fabs(1 - ratio) < near) {
-        pairs.push_back({k, l, 2 * e[k] * e[l]});
-        continue;
-      }
-      const double both = 2 * e[k] * e[l] * (std::isfinite(apart) ? ratio / apart : 0);
-      weight[k] += both;
-      weight[l] -= both;
-    }
-  }
+  visit_pairs(
+      series, [&](const Pair& pair) { pairs.push_back(pair); },
+      [&](const FarPair& pair) {
+        weight[pair.k] += pair.weight;
+        weight[pair.l] -= pair.weight;
+      });
   const std::size_t n = w.size(), rows = n > 0 ? part.size() / n : 0;
   std::vector<double> u(terms), power(terms), between(pairs.size());
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0, rise = 0;
     for (std::size_t k = 0; k < terms; ++k) {
-      x[k] = std::fmin(w[i] * tau[k], 1e100);
+      x[k] = std::fmin(w[i] * tau[k], most);
       r[k] = std::sqrt(1 + x[k] * x[k]);
       const double y = x[k] / r[k];
       sum += weight[k] * y * (x[k] / (r[k] + 1));
@@ -81,6 +99,43 @@ void loss_part(const PronySeries& series, std::span<const double> w, std::span<d
       part[m * n + i] = 2 * std::numbers::pi * whole;
     }
   }
+}
+
+void loss_part_gradient(const PronySeries& series, std::span<const double> w, std::span<const double> by_part,
+                        std::span<double> moduli, std::span<double> relaxation_times) {
+  const std::vector<double>& tau = series.relaxation_times();
+  const std::size_t terms = tau.size();
+  std::vector<double> s(terms), rise(terms);  // sums of s_k and ds_k / d ln x
+  std::vector<Pair> pairs;
+  const auto add = [&](std::size_t k, double over_modulus, double over_time) {
+    moduli[k] += 2 * std::numbers::pi * over_modulus;
+    relaxation_times[k] += 2 * std::numbers::pi * over_time;
+  };
+  const auto far_pair = [&](const FarPair& pair) {
+    const double value = pair.weight * (s[pair.k] - s[pair.l]);
+    add(pair.k, value, pair.weight * rise[pair.k] - pair.slope * value);
+    add(pair.l, value, -pair.weight * rise[pair.l] + pair.slope * value);
+  };
+  std::vector<double> x(terms), r(terms);
+  visit_pairs(
+      series, [&](const Pair& pair) { pairs.push_back(pair); }, [](const FarPair&) {});
+  for (std::size_t i = 0; i < w.size(); ++i) {
+    if (by_part[i] == 0) continue;
+    for (std::size_t k = 0; k < terms; ++k) {
+      x[k] = std::fmin(w[i] * tau[k], most);
+      r[k] = std::sqrt(1 + x[k] * x[k]);
+      const double y = x[k] / r[k];
+      s[k] += by_part[i] * y * (x[k] / (r[k] + 1));
+      rise[k] += by_part[i] * y * y / r[k];
+    }
+    for (const auto& [k, l, of] : pairs) {
+      const double a = x[k] / r[k], b = x[l] / r[l], both = r[k] + r[l], value = by_part[i] * of * a * b / both;
+      add(k, value, value * (1 - a * a - x[k] * a / both));
+      add(l, value, value * (1 - b * b - x[l] * b / both));
+    }
+  }
+  visit_pairs(
+      series, [](const Pair&) {}, far_pair);
 }
 
 void loss_part(const Rubber& rubber, std::span<const double> w, std::span<double> part) {

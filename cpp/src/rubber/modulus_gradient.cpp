@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "numerics/gauss_legendre.hpp"
+#include "rubber/loss_part.hpp"
 #include "rubber/unlimited_rubber.hpp"
 
 namespace asperity {
@@ -214,26 +215,35 @@ void ModulusGradient::take_integrals() {
     }
 }
 
-void ModulusGradient::operator()(std::span<const double> w, std::span<const double> by_i1,
-                                 std::span<const double> by_i2, VectorXd& storage, VectorXd& loss) const {
-  VectorXd i1 = VectorXd::Zero(i1_loss_.cols()), i2 = i1;
+void IntegralSlopes::add(double at, double by_i1, double by_storage, double by_loss) {
+  if (by_i1 == 0 && by_storage == 0 && by_loss == 0) return;
+  w.push_back(at);
+  i1.push_back(by_i1);
+  storage.push_back(by_storage);
+  loss.push_back(by_loss);
+}
+
+void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, VectorXd& loss) const {
+  VectorXd i1 = VectorXd::Zero(i1_loss_.cols()), of_storage = i1, of_loss = i1;
   Index begin = i1.size(), end = 0;
-  for (std::size_t j = 0; j < w.size(); ++j) {
-    if (by_i1[j] == 0 && by_i2[j] == 0) continue;
-    const double at = std::clamp(w[j], breaks_.front(), stretches_.back().high);
+  for (std::size_t j = 0; j < of.w.size(); ++j) {
+    const double at = std::clamp(of.w[j], breaks_.front(), stretches_.back().high);
     const std::size_t k = stretch_at(at);
     const std::array<double, 6> share = lagrange(std::sqrt(place(stretches_[k], at)));
     const Index first = static_cast<Index>(k) * places;
     for (int p = 0; p < places; ++p) {
-      i1[first + p] += by_i1[j] * share[static_cast<std::size_t>(p)];
-      i2[first + p] += by_i2[j] * share[static_cast<std::size_t>(p)];
+      i1[first + p] += of.i1[j] * share[static_cast<std::size_t>(p)];
+      of_storage[first + p] += of.storage[j] * share[static_cast<std::size_t>(p)];
+      of_loss[first + p] += of.loss[j] * share[static_cast<std::size_t>(p)];
     }
     begin = std::min(begin, first);
     end = std::max(end, first + places);
   }
   const Index n = std::max<Index>(end - begin, 0);
-  storage = i2_storage_.middleCols(begin, n) * i2.segment(begin, n);
-  loss = i2_loss_.middleCols(begin, n) * i2.segment(begin, n) + i1_loss_.middleCols(begin, n) * i1.segment(begin, n);
+  if (n == 0) begin = 0;
+  storage = i2_storage_.middleCols(begin, n) * of_storage.segment(begin, n);
+  loss =
+      i2_loss_.middleCols(begin, n) * of_loss.segment(begin, n) + i1_loss_.middleCols(begin, n) * i1.segment(begin, n);
 }
 
 void ModulusGradient::add_at(double w, double by_storage, double by_loss, VectorXd& storage, VectorXd& loss) const {
@@ -246,8 +256,7 @@ void ModulusGradient::add_at(double w, double by_storage, double by_loss, Vector
 
 // I1 = 2 pi sum_k E_k s_k / t_k and I2 = 2 pi (E_inf^2 + sum_k w_k s_k), w_k = 2 E_k (E_inf + sum_l E_l / (1 + tau_k /
 // tau_l)), t_k = w tau_k, s_k = 1 - 1 / sqrt(1 + t_k^2), of which ds / d ln t = t^2 / (1 + t^2)^(3/2).
-SeriesGradient series_gradient(const PronySeries& series, std::span<const double> w, std::span<const double> by_i1,
-                               std::span<const double> by_i2) {
+SeriesGradient series_gradient(const PronySeries& series, const IntegralSlopes& of) {
   const std::vector<double>&e = series.moduli(), &tau = series.relaxation_times();
   const auto n = static_cast<Index>(e.size());
   const double e_inf = series.equilibrium_modulus();
@@ -255,9 +264,12 @@ SeriesGradient series_gradient(const PronySeries& series, std::span<const double
   VectorXd linear = VectorXd::Zero(n), weight = VectorXd::Zero(n);
   SeriesGradient result{0, VectorXd::Zero(n), VectorXd::Zero(n)};
   const auto weights = VectorXd::Map(series.weights().data(), n);
-  const auto size = static_cast<Index>(w.size());
-  const auto of_w = Eigen::ArrayXd::Map(w.data(), size), of_i1 = Eigen::ArrayXd::Map(by_i1.data(), size),
-             of_i2 = Eigen::ArrayXd::Map(by_i2.data(), size);
+  // of I2 as a whole, and of its part by E'' what it has beside that
+  std::vector<double> beside(of.w.size());
+  for (std::size_t j = 0; j < beside.size(); ++j) beside[j] = of.loss[j] - of.storage[j];
+  const auto size = static_cast<Index>(of.w.size());
+  const auto of_w = Eigen::ArrayXd::Map(of.w.data(), size), of_i1 = Eigen::ArrayXd::Map(of.i1.data(), size),
+             of_i2 = Eigen::ArrayXd::Map(of.storage.data(), size);
   Eigen::ArrayXd t(size), share(size), over_t(size), slope(size);
   for (Index k = 0; k < n; ++k) {
     t = (of_w * tau[static_cast<std::size_t>(k)]).min(1e140);  // whose square is a double
@@ -284,6 +296,9 @@ SeriesGradient series_gradient(const PronySeries& series, std::span<const double
       result.relaxation_times[l] += moved;
     }
   }
+  if (std::ranges::any_of(beside, [](double one) { return one != 0; }))
+    loss_part_gradient(series, of.w, beside, {result.moduli.data(), e.size()},
+                       {result.relaxation_times.data(), e.size()});
   return result;
 }
 

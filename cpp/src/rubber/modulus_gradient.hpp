@@ -9,6 +9,12 @@
 
 namespace asperity {
 
+/// The slopes of a number over I1 and the parts of I2 that E' and E'' have, at frequencies `w`.
+struct IntegralSlopes {
+  std::vector<double> w, i1, storage, loss;
+  void add(double at, double by_i1, double by_storage, double by_loss);
+};
+
 /// Rows of a modulus at rising angular frequencies: those of a master curve, or of a Prony series steps of ln w between
 /// which ln E' and ln E'' change linearly. With the integrals of a number over E at the rows known once, a point takes
 /// three products of a matrix and a vector.
@@ -18,10 +24,9 @@ class ModulusGradient {
   ModulusGradient(const Rubber& rubber, double lowest, double highest);
 
   [[nodiscard]] const std::vector<double>& angular_frequency() const { return rows_; }
-  /// The slopes of a number over ln E' and ln E'' of each row, from those over I1 and I2 at the frequencies `w`, which
-  /// are held to the range.
-  void operator()(std::span<const double> w, std::span<const double> by_i1, std::span<const double> by_i2,
-                  Eigen::VectorXd& storage, Eigen::VectorXd& loss) const;
+  /// The slopes of a number over ln E' and ln E'' of each row, from those over integrals at frequencies, which are held
+  /// to the range.
+  void operator()(const IntegralSlopes& of, Eigen::VectorXd& storage, Eigen::VectorXd& loss) const;
   /// The slopes of ln E' and ln E'' at one frequency over those of the rows, times these factors.
   void add_at(double w, double by_storage, double by_loss, Eigen::VectorXd& storage, Eigen::VectorXd& loss) const;
 
@@ -56,12 +61,11 @@ class ModulusGradient {
   Eigen::MatrixXd i2_storage_, i2_loss_, i1_loss_;
 };
 
-/// Slopes of a number over ln E_inf, ln E_k and ln tau_k of a series, from those over I1 and I2 at frequencies.
+/// Slopes of a number over ln E_inf, ln E_k and ln tau_k of a series, from those over integrals at frequencies.
 struct SeriesGradient {
   double equilibrium_modulus = 0;
   Eigen::VectorXd moduli, relaxation_times;
 };
-SeriesGradient series_gradient(const PronySeries& series, std::span<const double> w, std::span<const double> by_i1,
-                               std::span<const double> by_i2);
+SeriesGradient series_gradient(const PronySeries& series, const IntegralSlopes& of);
 
 }  // namespace asperity

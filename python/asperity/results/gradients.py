@@ -9,6 +9,8 @@ from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 
 DENSITIES = ("spectrum", "storage", "loss")
+SEVERAL = {"moduli": "term", "relaxation_times": "term"}  # scalars of which there are several
+SEVERAL |= {"storage_factors": "row", "loss_factors": "row"}
 DECADE = np.log(10)
 
 
@@ -42,8 +44,16 @@ class Gradients(Table):
     rms_height, hurst, q0, q1, rolloff : float or ndarray, or None
         d mu / d ln of each, of a self-affine spectrum. q0 and q1 move the end of the band at a kept
         rms height.
+    strain_per_slope, storage_factors, loss_factors : float or ndarray, or None
+        d mu / d ln of each, of strain factors; the last two are their rows `storage` and `loss`,
+        shape mu.shape + (rows,).
     shear_stress, reference_velocity, width : float or ndarray, or None
         d mu / d ln of each, of the adhesion.
+    density, heat_capacity, conductivity, contact_diameter : float or ndarray, or None
+        d mu / d ln of each, of the heating. The macro-asperities' wavenumber follows the diameter
+        where it is not given.
+    macro_wavenumber, macro_area, interface_share : float or ndarray, or None
+        The same, where they are given, and the last with adhesion.
     error_estimate : float or ndarray
         Absolute error of a slope, and of the integral of a density's error: what a finer grid
         changes. Slopes over `q0` and `q1` have up to 1e-3 of mu more.
@@ -65,9 +75,19 @@ class Gradients(Table):
     q0: Any = None
     q1: Any = None
     rolloff: Any = None
+    strain_per_slope: Any = None
+    storage_factors: Array | None = None
+    loss_factors: Array | None = None
     shear_stress: Any = None
     reference_velocity: Any = None
     width: Any = None
+    density: Any = None
+    heat_capacity: Any = None
+    conductivity: Any = None
+    contact_diameter: Any = None
+    macro_wavenumber: Any = None
+    macro_area: Any = None
+    interface_share: Any = None
     error_estimate: Any = None
 
     def _summary(self) -> dict[str, Any]:
@@ -82,7 +102,7 @@ class Gradients(Table):
             "angular_frequency": Column(("angular_frequency",), self.angular_frequency, "rad/s"),
         }
         along = {"spectrum": "wavenumber", "storage": "angular_frequency"}
-        along |= {"loss": "angular_frequency", "moduli": "term", "relaxation_times": "term"}
+        along |= {"loss": "angular_frequency", **SEVERAL}
         variables = {}
         for name, slope in self._arguments().items():
             if name in coordinates or slope is None:
@@ -124,9 +144,7 @@ def of_core(parts: tuple[Any, ...], shape: Shape) -> Gradients:
     if temperature.size:
         columns["temperature"] = temperature
     tables = {"spectrum": spectrum, "storage": storage, "loss": loss}
-    tables |= {
-        name: columns.pop(name) for name in ("moduli", "relaxation_times") if name in columns
-    }
+    tables |= {name: columns.pop(name) for name in SEVERAL if name in columns}
     made: dict[str, Any] = {"wavenumber": frozen(q), "angular_frequency": frozen(w)}
     points = max(p.size, 1)
     made |= {name: frozen(a).reshape(*shape, a.size // points) for name, a in tables.items()}

@@ -66,24 +66,40 @@ def modulus(rubber, w):
 
 MODELS = {"partial-contact": asperity.PartialContact(), "none": None}
 MODELS |= {"s-factor": asperity.SFactor(gamma=0.5)}
+SHIFT = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)  # of the tables with heat
+HEATING = ("density", "heat_capacity", "conductivity", "contact_diameter", "macro_wavenumber")
+HEATING += ("residence",)
 
 
-def test_slopes_by_definition(reference_table):
+def scene_of(row):
+    """Spectrum, rubber and conditions of a row."""
+    law, series = row["rms_height"] is not None, row["table_frequency"].size == 0
+    spectrum = table_rows.self_affine(row) if law else table_rows.tabulated(row)
+    rubber = table_rows.prony(row) if series else table_rows.master_curve(row)
+    at = {name: row[name] for name in ("pressure", "velocity", "poisson_ratio")}
+    if row.get("strain_per_slope") is not None:
+        names = ("strain", "storage", "loss", "strain_per_slope")
+        at["strain_factors"] = asperity.StrainFactors(**{name: row[name] for name in names})
+    if "heat_capacity" in row:
+        at |= {"temperature": row["temperature"], "shift": SHIFT}
+        at["heating"] = asperity.Heating(**{name: row[name] for name in HEATING})
+    return spectrum, rubber, at
+
+
+@pytest.mark.parametrize("table", ["gradients"])
+def test_slopes_by_definition(reference_table, table):
     """Differences of mu that another program computed, relative to mu."""
     made = {}
-    for row in reference_table("gradients"):
-        scene, model, slope_of = row["case"].split(", ")
-        if (scene, model) not in made:
-            law = row["rms_height"] is not None
-            spectrum = table_rows.self_affine(row) if law else table_rows.tabulated(row)
-            series = row["table_frequency"].size == 0
-            rubber = table_rows.prony(row) if series else table_rows.master_curve(row)
-            conditions = {name: row[name] for name in ("pressure", "velocity", "poisson_ratio")}
-            made[scene, model] = asperity.friction(
-                spectrum, rubber, correction=MODELS[model], gradients=True, **conditions
+    for row in reference_table(table):
+        *scene, slope_of = row["case"].split(", ")
+        correction = MODELS[scene[1]] if len(scene) > 1 else asperity.PartialContact()
+        if (key := tuple(scene)) not in made:
+            spectrum, rubber, at = scene_of(row)
+            made[key] = asperity.friction(
+                spectrum, rubber, correction=correction, gradients=True, **at
             )
         name, _, index = slope_of.partition(" ")
-        of = made[scene, model].gradients
+        of = made[key].gradients
         found = getattr(of, name)
         if name in ("spectrum", "storage", "loss"):
             found = found * weights(of.wavenumber if name == "spectrum" else of.angular_frequency)

@@ -65,8 +65,8 @@ double Softening::held_from() const {
   return kinks_.back();
 }
 
-std::vector<ModulusFactors> Softening::at_nodes(const ContactGrid& grid) const {
-  std::vector<ModulusFactors> result;
+std::vector<double> Softening::strains(const ContactGrid& grid) const {
+  std::vector<double> result;
   result.reserve(grid.size());
   VectorXd roughness;
   std::vector<double> ends;
@@ -74,8 +74,14 @@ std::vector<ModulusFactors> Softening::at_nodes(const ContactGrid& grid) const {
   for (std::size_t i = 0; i < grid.size(); ++i) {
     const bool in_band = i < grid.band_size() && ends.back() > 0;
     const double share = in_band ? std::clamp(roughness[static_cast<Index>(i)] / ends.back(), 0.0, 1.0) : 0;
-    result.push_back(in_band ? factors_.at(strain_at_end_ * std::sqrt(share)) : (*this)(grid.wavenumber()[i]));
+    result.push_back(in_band ? strain_at_end_ * std::sqrt(share) : strain(grid.wavenumber()[i]));
   }
+  return result;
+}
+
+std::vector<ModulusFactors> Softening::at_nodes(const ContactGrid& grid) const {
+  std::vector<ModulusFactors> result;
+  for (const double strain : strains(grid)) result.push_back(factors_.at(strain));
   return result;
 }
 

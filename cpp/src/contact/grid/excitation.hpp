@@ -20,7 +20,9 @@ class Softening {
   [[nodiscard]] ModulusFactors operator()(double wavenumber) const;
   [[nodiscard]] double strain(double wavenumber) const;
   [[nodiscard]] double end() const { return surface_.back().b; }  // of the band, up to which it grows
-  /// At the nodes of a grid on this surface: in the band by its own integrals, in which pieces take rings together.
+  /// The strain at the nodes of a grid on this surface, and the factors there: in the band by its own integrals, in
+  /// which pieces take rings together.
+  [[nodiscard]] std::vector<double> strains(const ContactGrid& grid) const;
   [[nodiscard]] std::vector<ModulusFactors> at_nodes(const ContactGrid& grid) const;
   /// Whether all factors are 1 as far as the strain goes.
   [[nodiscard]] bool idle() const;

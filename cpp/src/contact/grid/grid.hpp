@@ -68,6 +68,12 @@ class ContactGrid {
     std::vector<double> cosine, sine;
   };
   [[nodiscard]] const Harmonics& macro_harmonics() const { return macro_harmonics_; }
+  /// Stretches of ln q up to q_m, each with a Gauss rule of its roughness: nodes beside pieces.
+  struct Stretch {
+    std::size_t first, count;
+    double lower, upper;  // [1/m]
+  };
+  [[nodiscard]] const std::vector<Stretch>& macro_stretches() const { return macro_stretches_; }
   /// ln q of both ends of all nodes, those of the edges among them.
   [[nodiscard]] double lowest() const { return lowest_; }
   [[nodiscard]] double highest() const { return highest_; }
@@ -130,6 +136,7 @@ class ContactGrid {
   std::vector<double> wavenumber_;
   Eigen::VectorXd weight_, macro_weight_;
   std::vector<double> weights_, macro_weights_;
+  std::vector<Stretch> macro_stretches_;
   std::vector<double> roughness_before_{0.0};  // each panel, and after all: sums of weights_
   Harmonics macro_harmonics_;
   Beyond beyond_;

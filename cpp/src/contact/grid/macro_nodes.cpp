@@ -58,6 +58,7 @@ void ContactGrid::add_macro_nodes(std::span<const Segment> surface) {
     }
     if (x.empty()) continue;
     const NodeRule nodes = gauss_rule(weight, x, most_nodes);
+    macro_stretches_.push_back({wavenumber_.size(), nodes.x.size(), std::exp(lower), std::exp(upper)});
     for (std::size_t j = 0; j < nodes.x.size(); ++j) {
       wavenumber_.push_back(std::exp((lower + upper + nodes.x[j] * (upper - lower)) / 2));
       macro_weights_.push_back(g_factor_ * nodes.weight[j]);

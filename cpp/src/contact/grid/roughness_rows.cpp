@@ -1,5 +1,5 @@
-// On a panel a node has the shares of the rows at its wavenumber. On a piece its line l_j, which is 1 at the node and 0
-// at the other one, has int c l_j s dy of a row's share s, over int c l_j dy.
+// On a panel a node has the shares of the rows at its wavenumber. Elsewhere nodes stand for a stretch, the polynomial
+// l_j for one that is 1 there and 0 at the others: it has int c l_j s dy of a row's share s, over int c l_j dy.
 #include "contact/grid/roughness_rows.hpp"
 
 #include <algorithm>
@@ -19,10 +19,11 @@ RoughnessRows::RoughnessRows(std::span<const Segment> surface, bool of_table, co
   if (const RoughnessPieces* const pieces = grid.pieces()) {
     double from = surface.front().a;
     for (std::size_t i = 0; i < pieces->nodes().end.size(); ++i) {
-      add_piece(grid, i, from);
+      add_stretch(grid, {2 * i, 2, from, pieces->nodes().end[i]});
       from = pieces->nodes().end[i];
     }
-    first_.resize(grid.band_size() + 1, row_.size());
+    for (const ContactGrid::Stretch& stretch : grid.macro_stretches()) add_stretch(grid, stretch);
+    first_.resize(grid.size() + 1, row_.size());
     return;
   }
   for (std::size_t j = 0; j < grid.band_size(); ++j) {
@@ -46,33 +47,36 @@ RoughnessRows::Shares RoughnessRows::shares_at(double wavenumber) const {
   return {row, 1 - x, x};
 }
 
-void RoughnessRows::add_piece(const ContactGrid& grid, std::size_t piece, double from) {
-  const double to = grid.pieces()->nodes().end[piece],
-               node[2] = {grid.wavenumber()[2 * piece], grid.wavenumber()[2 * piece + 1]};
-  const double apart = std::log(node[1] / node[0]);
-  const LegendreRule& rule = legendre_rule(4);
-  std::map<std::size_t, double> of[2];
-  double whole[2] = {};
-  auto segment = std::ranges::upper_bound(surface_, from, {}, &Segment::b);
-  for (; segment != surface_.end() && segment->a < to; ++segment) {
-    const double lower = std::fmax(from, segment->a), half = std::log(std::fmin(to, segment->b) / lower) / 2;
+void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch) {
+  first_.resize(stretch.first + 1, row_.size());
+  const std::size_t n = stretch.count;
+  const auto node = [&](std::size_t j) { return std::log(grid.wavenumber()[stretch.first + j]); };
+  const LegendreRule& rule = legendre_rule(n + 2);
+  std::vector<std::map<std::size_t, double>> of(n);
+  std::vector<double> whole(n);
+  auto segment = std::ranges::upper_bound(surface_, stretch.lower, {}, &Segment::b);
+  for (; segment != surface_.end() && segment->a < stretch.upper; ++segment) {
+    const double lower = std::fmax(stretch.lower, segment->a),
+                 half = std::log(std::fmin(stretch.upper, segment->b) / lower) / 2;
     for (std::size_t i = 0; i < rule.n; ++i) {
-      const double q = lower * std::exp(half * (1 + rule.node[i])), square = q * q;
+      const double q = lower * std::exp(half * (1 + rule.node[i])), y = std::log(q), square = q * q;
       const double part = half * rule.weight[i] * square * square * segment->density(q);
       if (!(part > 0)) continue;
       const Shares at = shares_at(q);
-      const double second = std::log(q / node[0]) / apart;
-      for (const auto& [line, share] : {std::pair{0, 1 - second}, std::pair{1, second}}) {
-        of[line][at.row] += part * share * at.lower;
-        of[line][at.row + 1] += part * share * at.upper;
-        whole[line] += part * share;
+      for (std::size_t j = 0; j < n; ++j) {
+        double polynomial = part;
+        for (std::size_t k = 0; k < n; ++k)
+          if (k != j) polynomial *= (y - node(k)) / (node(j) - node(k));
+        of[j][at.row] += polynomial * at.lower;
+        of[j][at.row + 1] += polynomial * at.upper;
+        whole[j] += polynomial;
       }
     }
   }
-  for (const int line : {0, 1}) {
-    for (const auto& [row, share] : of[line]) {
+  for (std::size_t j = 0; j < n; ++j) {
+    for (const auto& [row, share] : of[j]) {
       row_.push_back(static_cast<Index>(row));
-      share_.push_back(share / whole[line]);
+      share_.push_back(share / whole[j]);
     }
     first_.push_back(row_.size());
   }
@@ -80,7 +84,7 @@ void RoughnessRows::add_piece(const ContactGrid& grid, std::size_t piece, double
 
 VectorXd RoughnessRows::operator()(const VectorXd& by_node) const {
   VectorXd result = VectorXd::Zero(static_cast<Index>(rows_.size()));
-  for (Index j = 0; j < by_node.size(); ++j)
+  for (Index j = 0; j + 1 < static_cast<Index>(first_.size()); ++j)
     for (std::size_t k = first_[static_cast<std::size_t>(j)]; k < first_[static_cast<std::size_t>(j) + 1]; ++k)
       result[row_[k]] += by_node[j] * share_[k];
   return result;

@@ -17,7 +17,7 @@ class RoughnessRows {
   RoughnessRows(std::span<const Segment> surface, bool of_table, const ContactGrid& grid,
                 std::vector<double> wavenumber);
   [[nodiscard]] const std::vector<double>& wavenumber() const { return rows_; }
-  /// From slopes of a number over ln C at the nodes of the band to those over ln C of the rows.
+  /// From slopes of a number over ln C at all nodes to those over ln C of the rows.
   [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& by_node) const;
 
  private:
@@ -27,7 +27,7 @@ class RoughnessRows {
     double lower, upper;
   };
   [[nodiscard]] Shares shares_at(double wavenumber) const;
-  void add_piece(const ContactGrid& grid, std::size_t piece, double from);
+  void add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch);
 
   std::span<const Segment> surface_;
   bool of_table_;

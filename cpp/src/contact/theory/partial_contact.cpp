@@ -38,7 +38,7 @@ class PartialContactTheory final : public Theory {
   [[nodiscard]] double off_rule() const override { return off_rule_; }
   void begin_at(double log_kappa) override { kappa_ = std::exp(log_kappa); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
-  void gradient(double by_part, double by_area, ContactGradient& result) override;
+  void gradient(const ContactNumber& number, ContactGradient& result) override;
   [[nodiscard]] double stress_at(double g, double wavenumber, double i2) const override;
   [[nodiscard]] double density_of_edges(double wavenumber, double i1, double i2) const override;
 
@@ -61,15 +61,16 @@ class PartialContactTheory final : public Theory {
     held_ = false;
     if (!cold_ || partial_contact::last * (1 - hot) <= 1) return hot;
     if (!cold_excess_) {
-      const VectorXd cold = cold_();
-      const double g = grid_.weight().dot(cold.head(grid_.weight().size()));
-      cold_excess_ = end.band(g, cold[end_node()]).excess;
+      cold_i2_ = cold_();
+      const double g = grid_.weight().dot(cold_i2_.head(grid_.weight().size()));
+      cold_excess_ = end.band(g, cold_i2_[end_node()]).excess;
     }
     held_ = *cold_excess_ > hot;
     return std::clamp(*cold_excess_, hot, 0.0);
   }
 
   std::function<VectorXd()> cold_;
+  VectorXd cold_i2_;
   std::optional<double> cold_excess_;
   double crossed_;     // edges over those of isotropic roughness
   bool held_ = false;  // excess_ is that at T0, or 0
@@ -244,19 +245,19 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
 
 /// The number and `tied` times the rule, ln(F spread) - ln variance, which stays 0: `tied` is such that both together
 /// do not change with ln kappa.
-void PartialContactTheory::gradient(double by_part, double by_area, ContactGradient& result) {
+void PartialContactTheory::gradient(const ContactNumber& number, ContactGradient& result) {
   const ContactGrid::Beyond& beyond = grid_.beyond();
   const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
   result = {};
   result.i2.setZero(i2_.size());
-  result.ratio = by_part * part_;
-  result.weight.setZero(n);
+  const VectorXd by_part = result.ratio = number.by_part.cwiseProduct(part_);
+  result.weight.setZero(i2_.size());
   result.window.setZero(n);
   if (unit_g() == 0) return;
   const RuleSlopes of = rule_slopes();
   const partial_contact::AtEnd& at = of.at;
   VectorXd slope(n), passed(n), stressed(n);
-  double variance = 0, variance_by_kappa = 0, number_by_kappa = by_area * at.share_slope;
+  double variance = 0, variance_by_kappa = 0, number_by_kappa = number.by_area * at.share_slope;
   for (Index j = 0; j < n; ++j) {
     const double z = of_waves_[j], a = slope[j] = share_slope(kappa_ * scale_ * g_[j], share_[j]);
     passed[j] = 2 * z / (1 + z);
@@ -264,24 +265,29 @@ void PartialContactTheory::gradient(double by_part, double by_area, ContactGradi
     const double by_kappa = a - passed[j] * (at.obstacle.log_slope + 2 * a);
     variance += stressed[j];
     variance_by_kappa += stressed[j] * by_kappa;
-    number_by_kappa += by_part * part_[j] * by_kappa;
+    number_by_kappa += by_part[j] * by_kappa;
   }
   const VectorXd in_tail = scale_ * edges_ * beyond.end->window * in_tail_.head(count);
   variance += in_tail.sum();
   variance_by_kappa += in_tail.sum() * at.edges.log_slope;
-  number_by_kappa += by_part * part_.segment(first, count).sum() * at.edges.log_slope;
+  number_by_kappa += by_part.segment(first, count).sum() * at.edges.log_slope;
+  const double g_macro = scale_ * g_macro_,
+               by_macro = number.by_macro * macro_ * share_slope(kappa_ * g_macro, macro_);  // over ln(kappa G)
+  number_by_kappa += by_macro;
   const double integral_by_g = kappa_ * g() * at.share / at.integral;
   const double tied = -number_by_kappa / (integral_by_g + at.spread.log_slope - variance_by_kappa / variance);
 
   // over ln(R dG) of the nodes and ln(T d ln x), and from there over each factor in them
-  const VectorXd by_stress = by_part * part_.head(n) - tied / variance * stressed;
-  const VectorXd by_tail = by_part * part_.segment(first, count) - tied / variance * in_tail;
+  const VectorXd by_stress = by_part.head(n) - tied / variance * stressed;
+  const VectorXd by_tail = by_part.segment(first, count) - tied / variance * in_tail;
   result.window = -passed.cwiseProduct(by_stress);
   const double by_obstacle = result.window.sum(), by_edges = by_tail.sum();
   const double by_excess = tied * of.spread_by_excess + by_edges * of.edges_by_excess;
-  const double off = held_ ? 0 : by_excess * (excess_ - 1);  // of 1 - 1 / rho over ln G1, -ln M and -ln I2(v q_e)
+  const bool cold = held_ && cold_excess_ && excess_ == *cold_excess_;
+  const double over_excess = by_excess * (excess_ - 1);  // of 1 - 1 / rho over ln G1, -ln M and -ln I2(v q_e)
+  const double off = held_ ? 0 : over_excess;
   const double by_g1 = tied * (integral_by_g + of.spread_by_g) + by_edges * of.edges_by_g +
-                       by_obstacle * of.obstacle_by_g + by_area * at.share_slope + off;
+                       by_obstacle * of.obstacle_by_g + number.by_area * at.share_slope + off;
   VectorXd by_node(n), by_edge = VectorXd::Zero(static_cast<Index>(g_edge_.size()));
   for (Index j = 0; j < n; ++j) {
     const double g = scale_ * g_[j];
@@ -290,14 +296,23 @@ void PartialContactTheory::gradient(double by_part, double by_area, ContactGradi
   by_edge[by_edge.size() - 1] = by_g1 / g();
   const VectorXd through_g = back_through_g(by_node, by_edge);
   constexpr double tail = partial_contact::tail_excess;
-  result.weight = by_stress + through_g;
-  result.i2.head(n) = result.weight + result.window;
+  result.weight.head(n) = by_stress + through_g;
+  result.i2.head(n) = result.weight.head(n) + result.window;
   result.i2.segment(first, count) = (1 + tail) * by_tail;
   result.i2[end_node()] -= tail * by_edges + off;
-  result.scale = by_part * part_.sum() - tied + by_obstacle - off + through_g.sum();
+  result.scale = by_part.sum() - tied + by_obstacle - off + through_g.sum();
   constexpr double end_power = 0.2;  // of 4 w_e / M in Z
   result.end_window = by_edges + end_power * by_obstacle;
   result.total = -end_power * by_obstacle - off;
+  if (cold) {
+    const VectorXd& weight = grid_.weight();
+    result.cold_i2.setZero(i2_.size());
+    result.cold_i2.head(n) = over_excess / weight.dot(cold_i2_.head(n)) * weight.cwiseProduct(cold_i2_.head(n));
+    result.weight.head(n) += result.cold_i2.head(n);
+    result.cold_i2[end_node()] -= over_excess;
+    result.total -= over_excess;
+  }
+  back_through_macro(g_macro > 0 ? by_macro / g_macro : 0, result);
 }
 
 double PartialContactTheory::stress_at(double g, double wavenumber, double i2) const {

@@ -39,6 +39,15 @@ VectorXd Theory::back_through_g(const VectorXd& by_node, const VectorXd& by_edge
   return scale_ * grid_.integrate_back(by_node, by_edge).cwiseProduct(i2_.head(g_.size()));
 }
 
+void Theory::back_through_macro(double by_g, ContactGradient& result) const {
+  result.macro = scale_ * by_g;
+  if (by_g == 0) return;
+  const VectorXd by_node = result.macro * grid_.macro_weight().cwiseProduct(i2_);
+  result.i2 += by_node;
+  result.weight += by_node;
+  result.scale += by_node.sum();
+}
+
 double Theory::g_on(const ContactGrid::Place& place) const {
   const ContactGrid::Cell& cell = grid_.cells()[place.cell];
   double weights[LegendreRule::most], sum = g_edge_[place.cell];
@@ -68,7 +77,7 @@ class PerssonTheory final : public Theory {
   void evaluate(double scale, std::optional<double> log_kappa) override;
   [[nodiscard]] double area() override { return p_of(area_g_(g()), form_); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
-  void gradient(double by_part, double by_area, ContactGradient& result) override;
+  void gradient(const ContactNumber& number, ContactGradient& result) override;
   [[nodiscard]] double stress_at(double g, double /*wavenumber*/, double /*i2*/) const override { return p_s(g); }
 
  private:
@@ -197,14 +206,14 @@ void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& res
   result.macro = contact_slope(scale_ * g_macro_, form_) * slopes.macro;
 }
 
-void PerssonTheory::gradient(double by_part, double by_area, ContactGradient& result) {
+void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& result) {
   const auto& cells = grid_.cells();
   const Index n = g_.size();
   VectorXd by_node = VectorXd::Zero(n), by_edge = VectorXd::Zero(static_cast<Index>(cells.size()) + 1);
   result = {};
-  result.ratio = by_part * part_;
+  result.ratio = number.by_part.cwiseProduct(part_);
   result.i2.setZero(i2_.size());
-  result.weight.setZero(n);
+  result.weight.setZero(i2_.size());
   result.window.setZero(n);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
@@ -214,7 +223,8 @@ void PerssonTheory::gradient(double by_part, double by_area, ContactGradient& re
       using Columns = Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>;
       const Columns slope(&rule.slope[0][0], count, count, Eigen::OuterStride<>(LegendreRule::most));
       const Eigen::Map<const VectorXd> at_lower(rule.at_lower, count), at_upper(rule.at_upper, count);
-      const VectorXd by_measure = by_part * ratio_.segment(first, count), by_f = -(slope * by_measure);
+      const VectorXd by_measure = number.by_part.segment(first, count).cwiseProduct(ratio_.segment(first, count)),
+                     by_f = -(slope * by_measure);
       for (Index i = 0; i < count; ++i) by_node[first + i] = p_s(g_at_load_[first + i]) * by_f[i];
       by_edge[edge + 1] += p_s(edge_[c + 1]) * at_upper.dot(by_measure);
       by_edge[edge] -= p_s(edge_[c]) * at_lower.dot(by_measure);
@@ -222,18 +232,19 @@ void PerssonTheory::gradient(double by_part, double by_area, ContactGradient& re
       for (Index i = first; i < first + count; ++i) {
         const double g = g_at_load_[i], share = p_s(g);
         if (!(share > 0)) continue;
-        by_node[i] = by_part * part_[i] * p_s_slope(g) / share;
-        result.weight[i] = by_part * part_[i];
+        by_node[i] = result.ratio[i] * p_s_slope(g) / share;
+        result.weight[i] = result.ratio[i];
       }
     }
   }
   const double explicitly = result.weight.sum();  // dG has the scale, too
   const CorrectedG area = area_g_.at(g());
-  by_edge[by_edge.size() - 1] += by_area * contact_slope(area.g, form_) * area.slope;
+  by_edge[by_edge.size() - 1] += number.by_area * contact_slope(area.g, form_) * area.slope;
   const VectorXd through_g = back_through_g(by_node, by_edge);
-  result.weight += through_g;
-  result.i2.head(n) = result.weight;
+  result.weight.head(n) += through_g;
+  result.i2.head(n) = result.weight.head(n);
   result.scale = explicitly + through_g.sum();
+  back_through_macro(number.by_macro * contact_slope(scale_ * g_macro_, form_), result);
 }
 
 }  // namespace

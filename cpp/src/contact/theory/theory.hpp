@@ -36,13 +36,21 @@ struct ContactSlopes {
   Eigen::RowVectorXd rule;         // of what the rule of kappa is off, where ln kappa has slopes of its own
 };
 
+/// A number that a contact has: all parts, times a factor each, with A / A0 and P_m.
+struct ContactNumber {
+  Eigen::VectorXd by_part;
+  double by_area = 0, by_macro = 0;
+};
+
 /// The slopes of one number over the logarithms of all that it is made of.
 struct ContactGradient {
   Eigen::VectorXd i2, ratio;         // of I2 and of I1 / I2, of all nodes
-  Eigen::VectorXd weight;            // of the roughness of the band's nodes, as far as it is in G and in the stress
-  Eigen::VectorXd window;            // of the mean roughness about them, with PartialContact
+  Eigen::VectorXd weight;            // of the roughness of all nodes, as far as it is in G and in the stress
+  Eigen::VectorXd window;            // of the mean roughness about those of the band, with PartialContact
   double scale = 0;                  // of the scale of G
   double end_window = 0, total = 0;  // of w_e and of M
+  double macro = 0;                  // over G at q_m itself, at unit load
+  Eigen::VectorXd cold_i2;           // of I2 at T0, where PartialContact holds its excess at that of T0
 };
 
 /// mu_H is 4 (1 - nu^2) sigma0 times the sum of all parts, R dF of Eq. 22 or R times the stress of PartialContact.
@@ -73,8 +81,8 @@ class Theory {
   virtual void begin_at(double /*log_kappa*/) {}
   /// Of the last evaluation.
   virtual void differentiate(const ModulusSlopes& along, ContactSlopes& result) = 0;
-  /// The same, of `by_part` times the sum of all parts plus `by_area` times A / A0, over all directions at once.
-  virtual void gradient(double by_part, double by_area, ContactGradient& result) = 0;
+  /// The same of one number, over all directions at once.
+  virtual void gradient(const ContactNumber& number, ContactGradient& result) = 0;
   /// What stands where Eq. 22 has P S, at a wavenumber of the band where G at the load is `g`.
   [[nodiscard]] virtual double stress_at(double g, double wavenumber, double i2) const = 0;
   /// dmu_H / dln q over 4 (1 - nu^2) sigma0 of the edges of contacts, which PartialContact has from the end of the
@@ -105,6 +113,8 @@ class Theory {
   void add_up(const ModulusSlopes& along, GSlopes& slopes) const;
   /// From slopes of a number over G at the nodes and at the ends of cells to those over ln I2, which go through G.
   [[nodiscard]] Eigen::VectorXd back_through_g(const Eigen::VectorXd& by_node, const Eigen::VectorXd& by_edge) const;
+  /// Adds those that go through G at q_m, from one over that at the load.
+  void back_through_macro(double by_g, ContactGradient& result) const;
 
   const ContactGrid& grid_;
   double scale_ = 0, macro_ = 1;

@@ -1,0 +1,219 @@
+// From slopes over the roughness, I1 and I2 of each node to those over all that these are made of.
+#include "friction/gradient_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "contact/theory/s_factor.hpp"
+
+namespace asperity {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+Eigen::Map<const VectorXd> column(const std::vector<double>& values, std::size_t n) {
+  return {values.data(), static_cast<Index>(n)};
+}
+
+VectorXd one(double value) { return VectorXd::Constant(1, value); }
+
+}  // namespace
+
+std::vector<std::string> law_arguments(const SelfAffineSpectrum& law) {
+  std::vector<std::string> result{"rms_height", "hurst", "q0", "q1"};
+  if (law.rolloff) result.emplace_back("rolloff");
+  return result;
+}
+
+SelfAffineSpectrum changed_law(const SelfAffineSpectrum& law, std::size_t argument, double factor) {
+  SelfAffineSpectrum result = law;
+  double* const numbers[] = {&result.rms_height, &result.hurst, &result.q0, &result.q1,
+                             result.rolloff ? &*result.rolloff : nullptr};
+  *numbers[argument] *= factor;
+  return result;
+}
+
+GradientChain::GradientChain(const GradientScene& scene, const ContactGrid& grid)
+    : scene_(scene),
+      grid_(grid),
+      roughness_(grid),
+      rows_(scene.surface, std::holds_alternative<TabulatedSpectrum>(scene.spectrum), grid, scene.rows),
+      known_(known_range(scene.rubber)) {
+  take_law();
+  if (std::holds_alternative<NayakSFactor>(scene.model.correction)) take_nayak();
+  if (scene.model.strain_factors) strain_.emplace(*scene.model.strain_factors, scene.surface, grid);
+}
+
+/// By central differences of ln C.
+void GradientChain::take_law() {
+  const auto* const law = std::get_if<SelfAffineSpectrum>(&scene_.spectrum);
+  if (!law) return;
+  constexpr double step = 1e-6;
+  for (std::size_t k = 0; k < law_arguments(*law).size(); ++k) {
+    const SelfAffineSpectrum less = changed_law(*law, k, 1 - step), more = changed_law(*law, k, 1 + step);
+    VectorXd slope(static_cast<Index>(grid_.band_size()));
+    for (Index j = 0; j < slope.size(); ++j) {
+      const double q = std::clamp(grid_.wavenumber()[static_cast<std::size_t>(j)], law->q0 * (1 + 2 * step),
+                                  law->q1 * (1 - 2 * step));
+      slope[j] = std::log(density(more, q) / density(less, q)) / (2 * step);
+    }
+    law_.push_back(std::move(slope));
+  }
+}
+
+/// alpha = 1.5 m0 m4 / m2^2 of m_n = int q^(n + 1) C dq.
+void GradientChain::take_nayak() {
+  const VectorXd &c = grid_.weight(), q = column(grid_.wavenumber(), grid_.band_size());
+  const VectorXd m0 = c.cwiseQuotient(q.cwiseAbs2()), m4 = c.cwiseProduct(q.cwiseAbs2());
+  nayak_ = m0 / m0.sum() + m4 / m4.sum() - 2 * c / c.sum();
+  const double alpha = nayak_parameter(scene_.spectrum);
+  constexpr double step = 1e-4;
+  for (const double factor : {1 - step, 1 + step}) inside_.emplace_back(nayak_s(alpha * factor), scene_.model.form);
+}
+
+/// Over ln C of the nodes, by p_T and by Nayak's parameter too.
+VectorXd GradientChain::by_roughness(const MuSlopes& mu, double by_end, const ShiftGradient& shift) {
+  VectorXd result = roughness_(mu.of, by_end);
+  const auto n = static_cast<Index>(grid_.band_size());
+  const VectorXd q = column(grid_.wavenumber(), grid_.band_size());
+  if (shift.rms_height != 0) {
+    const VectorXd square = grid_.weight().cwiseQuotient(q.cwiseAbs2());
+    result.head(n) += (-2 * mu.of.scale * shift.rms_height / (2 * square.sum())) * square;
+  }
+  if (!inside_.empty() && mu.by_area != 0 && mu.g > 0) {
+    constexpr double apart = 2e-4;  // of ln alpha
+    result.head(n) +=
+        mu.by_area *
+        (contact_share(inside_[1](mu.g), scene_.model.form) - contact_share(inside_[0](mu.g), scene_.model.form)) /
+        apart * nayak_;
+  }
+  return result;
+}
+
+/// d mu over ln q of an end of the band that moves outwards, C going on: what a node there has, over its d ln q.
+double GradientChain::at_end(const VectorXd& by_node, bool upper) const {
+  const ContactGrid::Cell& cell = upper ? grid_.cells().back() : grid_.cells().front();
+  const LegendreRule& rule = *cell.rule;
+  const double half = (cell.upper - cell.lower) / 2, *const shape = upper ? rule.at_upper : rule.at_lower;
+  double result = 0;
+  for (std::size_t j = 0; j < rule.n; ++j) {
+    const double t = cell.lower + half * (1 + rule.node[j]);
+    const double length = half * rule.weight[j] * 2 * t;
+    result += shape[j] * by_node[static_cast<Index>(cell.first + j)] / length;
+  }
+  return result;
+}
+
+PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient& shift) {
+  const std::size_t n = grid_.size(), band = grid_.band_size();
+  const ContactGrid::Beyond& beyond = grid_.beyond();
+  const std::size_t edges_end = beyond.end ? beyond.first + beyond.count + 1 : band;
+  IntegralSlopes integrals;
+  PointGradient result;
+  VectorXd by_f = VectorXd::Zero(static_cast<Index>(strain_ ? n : 0)), by_g = by_f;
+  double by_end = mu.end, homogeneous = 0, beside = 0;
+  const auto add = [&](const FeltModulus& felt, const VectorXd& of_i1, const VectorXd& of_i2, bool moves) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto at = static_cast<Index>(j);
+      const double i1 = felt.columns.i1[j], i2 = felt.columns.i2[j], by_i1 = i1 > 0 ? of_i1[at] : 0, by_i2 = of_i2[at];
+      if (by_i1 == 0 && by_i2 == 0) continue;
+      const bool held = known_ && j >= band && felt.frequency[j] >= known_->highest;
+      if (!held) {
+        const double slope1 = i1 > 0 ? felt.columns.slope1[j] / i1 : 0,
+                     part = by_i2 * (felt.columns.slope2[j] / i2) + by_i1 * slope1;
+        result.by_frequency += part;
+        result.by_temperature += part * felt.rate[at];
+        if (!felt.beside.i1.empty())
+          beside += by_i2 * (felt.beside.slope2[j] / i2) + (i1 > 0 ? by_i1 * (felt.beside.slope1[j] / i1) : 0) - part;
+        if (moves && j >= band && j < edges_end) by_end += part * felt.along[at];
+      }
+      homogeneous += by_i1 + 2 * by_i2;
+      double storage = by_i2 / i2, loss = storage;
+      if (strain_) {
+        const auto [f, g] = strain_->factors()[j];
+        const double of_loss = g * g * felt.loss_part[j] / i2;
+        storage *= f * f;
+        loss *= g * g;
+        by_f[at] += by_i2 * 2 * (1 - of_loss);
+        by_g[at] += by_i2 * 2 * of_loss + by_i1;
+        integrals.add(felt.frequency[j], by_i1 == 0 ? 0 : by_i1 * g / i1, storage, loss);
+      } else {
+        integrals.add(felt.frequency[j], by_i1 == 0 ? 0 : by_i1 / i1, storage, loss);
+      }
+    }
+  };
+  add(mu.felt, mu.of.ratio, mu.of.i2 - mu.of.ratio, true);
+  if (mu.of.cold_i2.size() != 0) add(mu.cold, VectorXd::Zero(mu.of.cold_i2.size()), mu.of.cold_i2, true);
+
+  StrainGradient::Slopes strain;
+  VectorXd by_strain = VectorXd::Zero(static_cast<Index>(band));
+  if (strain_) strain = (*strain_)(by_f, by_g, by_strain);
+  VectorXd by_node = by_roughness(mu, by_end + strain.end, shift);
+  by_node.head(by_strain.size()) += by_strain;
+  result.spectrum = rows_(by_node);
+  add_law(mu.of, shift, by_node, result);
+  scene_.modulus(integrals, result.storage, result.loss);
+  // I1 is linear in E and I2 a square
+  result.missed = std::fmax(std::fabs(result.storage.sum() + result.loss.sum() - homogeneous), std::fabs(beside));
+  add_modulus(mu, integrals, shift, result);
+  if (!strain_) return result;
+  result.arguments.push_back(one(strain.per_slope));
+  result.arguments.push_back(std::move(strain.storage));
+  result.arguments.push_back(std::move(strain.loss));
+  return result;
+}
+
+void GradientChain::add_law(const ContactGradient& of, const ShiftGradient& shift, const VectorXd& by_node,
+                            PointGradient& result) const {
+  for (std::size_t k = 0; k < law_.size(); ++k) {
+    double slope = by_node.head(law_[k].size()).dot(law_[k]);
+    if (k == 2) slope -= at_end(by_node, false);
+    if (k == 3) slope += at_end(by_node, true);
+    // the rms height is in the slope over ln C already
+    if (k > 0 && !shift.law.empty()) slope -= 2 * of.scale * shift.law[k];
+    result.arguments.push_back(one(slope));
+  }
+}
+
+/// Over the rows of the modulus and the terms of a series. A p_T that knows |E| has it at one frequency.
+void GradientChain::add_modulus(const MuSlopes& mu, const IntegralSlopes& integrals, const ShiftGradient& shift,
+                                PointGradient& result) const {
+  const auto* const series = std::get_if<PronySeries>(&scene_.rubber);
+  SeriesGradient terms;
+  if (series) terms = series_gradient(*series, integrals);
+  if (shift.macro_wavenumber > 0) {
+    const double by_modulus = 2 * mu.of.scale * shift.pressure;  // d mu / d ln |E|
+    const double w = shift.velocity * shift.macro_wavenumber;
+    const std::complex<double> e = modulus(scene_.rubber, w);
+    const double square = std::norm(e);
+    scene_.modulus.add_at(w, by_modulus * e.real() * e.real() / square, by_modulus * e.imag() * e.imag() / square,
+                          result.storage, result.loss);
+    constexpr double step = 1e-5;
+    const auto size = [&](double at) { return std::abs(modulus(scene_.rubber, at)); };
+    const double lower = known_ ? std::fmax(w * (1 - step), known_->lowest) : w * (1 - step),
+                 upper = known_ ? std::fmin(w * (1 + step), known_->highest) : w * (1 + step);
+    const double part = by_modulus * std::log(size(upper) / size(lower)) / std::log(upper / lower);
+    result.by_frequency += part;
+    result.by_temperature += part * shift.rate;
+    if (series) {
+      terms.equilibrium_modulus += by_modulus * series->equilibrium_modulus() * e.real() / square;
+      for (std::size_t k = 0; k < series->moduli().size(); ++k) {
+        const std::complex<double> x(0, w * series->relaxation_times()[k]), part_of_e = x / (1.0 + x);
+        const double modulus = series->moduli()[k];
+        terms.moduli[static_cast<Index>(k)] += by_modulus * modulus * (std::conj(e) * part_of_e).real() / square;
+        terms.relaxation_times[static_cast<Index>(k)] +=
+            by_modulus * modulus * (std::conj(e) * part_of_e / (1.0 + x)).real() / square;
+      }
+    }
+  }
+  if (!series) return;
+  result.arguments.push_back(one(terms.equilibrium_modulus));
+  result.arguments.push_back(std::move(terms.moduli));
+  result.arguments.push_back(std::move(terms.relaxation_times));
+}
+
+}  // namespace asperity

@@ -1,0 +1,96 @@
+// From slopes of mu over what nodes have to those over what was given.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "asperity/friction.hpp"
+#include "contact/grid/roughness_rows.hpp"
+#include "contact/theory/roughness_gradient.hpp"
+#include "contact/theory/strain_gradient.hpp"
+#include "contact/theory/theory.hpp"
+#include "heat/angular_slopes.hpp"
+#include "rubber/modulus_gradient.hpp"
+
+namespace asperity {
+
+/// All that points of a call share. The rubber is the one at the reference temperature.
+struct GradientScene {
+  const Spectrum& spectrum;
+  const Rubber& rubber;
+  const ContactModel& model;
+  const std::optional<Adhesion>& adhesion;
+  std::span<const Segment> surface;
+  const std::vector<double>& rows;  // of C [1/m]
+  const ModulusGradient& modulus;
+};
+
+/// Slopes of ln p_T over ln of the pressure, of the rms height of the roughness and of each number of a law; over the
+/// modulus it has that over the pressure, its sign turned.
+struct ShiftGradient {
+  double p = 1, pressure = 0, rms_height = 0;
+  double macro_wavenumber = 0;  // at which the modulus is asked for, 0 where it is not
+  double velocity = 0;          // v a_T there [m/s]
+  double rate = 0;              // d ln a_T / dT there [1/K]
+  std::vector<double> law;
+};
+
+/// The slopes of mu, or of a number that stands for it, at the nodes of a grid.
+struct MuSlopes {
+  ContactGradient of;
+  double by_area = 0, g = 0;  // over A / A0 itself, and G at q1
+  double end = 0;             // over ln q_e, beside what is felt there
+  FeltModulus felt, cold;     // the latter at T0, where `of` asks for it
+};
+
+/// d mu / d ln, but for the temperature.
+struct PointGradient {
+  Eigen::VectorXd spectrum, storage, loss;  // of each row
+  double pressure = 0, velocity = 0, temperature = 0;
+  double by_frequency = 0, by_temperature = 0;  // by all frequencies, and by those as they follow the temperature
+  /// What the rows of the modulus have together beside what the nodes have, or slopes over less of it beside those
+  /// that were taken: the larger.
+  double missed = 0;
+  std::vector<Eigen::VectorXd> arguments;  // of the law, the series and the factors of strain
+};
+
+/// On one grid, which must outlive it.
+class GradientChain {
+ public:
+  GradientChain(const GradientScene& scene, const ContactGrid& grid);
+  [[nodiscard]] PointGradient operator()(const MuSlopes& mu, const ShiftGradient& shift);
+  /// The factors of the nodes, none without strain.
+  [[nodiscard]] std::vector<ModulusFactors> factors() const {
+    return strain_ ? strain_->factors() : std::vector<ModulusFactors>{};
+  }
+
+ private:
+  void take_law();
+  void take_nayak();
+  [[nodiscard]] Eigen::VectorXd by_roughness(const MuSlopes& mu, double by_end, const ShiftGradient& shift);
+  [[nodiscard]] double at_end(const Eigen::VectorXd& by_node, bool upper) const;
+  void add_modulus(const MuSlopes& mu, const IntegralSlopes& integrals, const ShiftGradient& shift,
+                   PointGradient& result) const;
+  void add_law(const ContactGradient& of, const ShiftGradient& shift, const Eigen::VectorXd& by_node,
+               PointGradient& result) const;
+
+  const GradientScene& scene_;
+  const ContactGrid& grid_;
+  RoughnessGradient roughness_;
+  RoughnessRows rows_;
+  std::optional<StrainGradient> strain_;
+  std::optional<FrequencyRange> known_;
+  std::vector<Eigen::VectorXd> law_;  // d ln C of the nodes over each number of a law
+  Eigen::VectorXd nayak_;             // the same of ln alpha over ln C of the nodes
+  std::vector<SInside> inside_;       // at an alpha that is less, and more
+};
+
+/// The numbers of a law by their names, in the order of the slopes.
+std::vector<std::string> law_arguments(const SelfAffineSpectrum& law);
+/// The law with one of them times a factor.
+SelfAffineSpectrum changed_law(const SelfAffineSpectrum& law, std::size_t argument, double factor);
+
+}  // namespace asperity

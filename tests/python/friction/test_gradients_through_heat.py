@@ -1,0 +1,178 @@
+"""Slopes of mu through strain factors and the heat that friction makes: differences of mu."""
+
+import inspect
+
+import numpy as np
+import pytest
+
+import asperity
+
+
+def with_changes(made, **more):
+    """The object made anew with other numbers."""
+    kept = {name: getattr(made, name) for name in inspect.signature(type(made)).parameters}
+    return type(made)(**{**kept, **more})
+
+
+ROAD = asperity.SelfAffineSpectrum(rms_height=265e-6, hurst=0.87, q0=300, q1=2e5, rolloff=2000)
+Q = np.geomspace(300, 1.99e5, 150)
+SCATTER = np.exp(0.15 * np.random.default_rng(1).standard_normal(Q.size))
+RINGS = asperity.TabulatedSpectrum(wavenumber=Q, density=ROAD.at(Q) * SCATTER)
+SERIES = asperity.PronySeries(
+    equilibrium_modulus=3e6,
+    moduli=np.geomspace(1e6, 3e8, 9),
+    relaxation_times=np.geomspace(1e-2, 1e-9, 9),
+)
+W = np.geomspace(1e-5, 1e11, 60)
+MEASURED = asperity.MasterCurve(
+    angular_frequency=W,
+    storage_modulus=SERIES.modulus(W).real,
+    loss_modulus=SERIES.modulus(W).imag,
+)
+STRAIN = asperity.StrainFactors(
+    strain=[0.001, 0.01, 0.1, 0.3, 0.6],
+    storage=[0.95, 0.75, 0.45, 0.34, 0.3],
+    loss=[1.1, 1.25, 0.8, 0.5, 0.41],
+)
+HEATING = asperity.Heating(
+    density=1200.0, heat_capacity=1650.0, conductivity=0.23, contact_diameter=1e-3
+)
+AREA = with_changes(HEATING, macro_area=0.1, residence="box", interface_share=0.9)
+OWN = with_changes(HEATING, macro_wavenumber=5e3, interface_share=0.4)
+STICKY = asperity.Adhesion(shear_stress=1e6)
+PARTIAL = asperity.PartialContact()
+TOPS = asperity.GreenwoodWilliamson(z_max=9e-4, z_min=-9e-4)
+HEAT = {
+    "temperature": 290.0,
+    "shift": asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15),
+}
+SCENES = {
+    "strain": (ROAD, SERIES, {"strain_factors": STRAIN}),
+    "strain on rings": (RINGS, SERIES, {"strain_factors": STRAIN, "correction": PARTIAL}),
+    "strain of rows": (ROAD, MEASURED, {"strain_factors": STRAIN, "correction": PARTIAL}),
+    "heat": (ROAD, SERIES, {"heating": HEATING}),
+    "heat by the rule": (ROAD, SERIES, {"heating": HEATING, "correction": PARTIAL}),
+    "heat on rings": (RINGS, SERIES, {"heating": OWN, "correction": PARTIAL, "adhesion": STICKY}),
+    "heat of adhesion": (RINGS, SERIES, {"heating": AREA, "adhesion": STICKY}),
+    "heat of asperities": (ROAD, SERIES, {"heating": OWN, "correction": TOPS, "adhesion": STICKY}),
+    "heat of rows": (ROAD, MEASURED, {"heating": HEATING, "correction": PARTIAL}),
+    "heat and strain": (ROAD, SERIES, {"heating": HEATING, "strain_factors": STRAIN}),
+}
+NAMES = {
+    "strain_factors": ("strain_per_slope",),
+    "adhesion": ("shear_stress", "reference_velocity"),
+    "heating": (
+        "density",
+        "heat_capacity",
+        "conductivity",
+        "contact_diameter",
+        "macro_wavenumber",
+        "macro_area",
+        "interface_share",
+    ),
+}
+FACTOR_ROWS = ("storage", "loss")
+
+
+def weights(x):
+    steps = np.diff(np.log(x)) / 2
+    return np.append(steps, 0) + np.append(0, steps)
+
+
+def changed(made, name, factor, row=None):
+    """The object with one number, or one of several, times a factor."""
+    old = getattr(made, name)
+    if row is None:
+        return with_changes(made, **{name: old * factor})
+    several = np.array(old)
+    several[row] *= factor
+    return with_changes(made, **{name: several})
+
+
+def slopes(spectrum, rubber, at, of):
+    """Each slope with what changes the scene by a logarithm."""
+    for name in ("pressure", "velocity"):
+        yield name, getattr(of, name), lambda f, n=name: (spectrum, rubber, {n: at[n] * f})
+    if "heating" in at:
+        by_log = of.temperature * at["temperature"]
+        yield "temperature", by_log, lambda f: (spectrum, rubber, {"temperature": 290.0 * f})
+    if spectrum is ROAD:
+        for name in ("rms_height", "hurst", "q0", "rolloff"):
+            yield name, getattr(of, name), lambda f, n=name: (changed(ROAD, n, f), rubber, {})
+    else:
+        rows = of.spectrum * weights(of.wavenumber)
+        for k in (20, 110):
+            yield k, rows[k], lambda f, k=k: (changed(RINGS, "density", f, k), rubber, {})
+    if rubber is SERIES:
+        for name in ("moduli", "relaxation_times"):
+            slope = getattr(of, name)[2]
+            yield name, slope, lambda f, n=name: (spectrum, changed(SERIES, n, f, 2), {})
+    else:
+        loss = of.loss * weights(of.angular_frequency)
+        k = int(np.argmax(loss))
+        yield "loss", loss[k], lambda f: (spectrum, changed(rubber, "loss_modulus", f, k), {})
+    for part, names in NAMES.items():
+        for name in names:
+            if (made := at.get(part)) and getattr(made, name) and getattr(of, name) is not None:
+                yield (
+                    name,
+                    getattr(of, name),
+                    lambda f, p=part, n=name: (spectrum, rubber, {p: changed(at[p], n, f)}),
+                )
+    if factors := at.get("strain_factors"):
+        for name in FACTOR_ROWS:
+            yield (
+                name,
+                getattr(of, f"{name}_factors")[2],
+                lambda f, n=name: (spectrum, rubber, {"strain_factors": changed(factors, n, f, 2)}),
+            )
+
+
+@pytest.mark.parametrize("scene", SCENES)
+def test_slopes_are_differences(scene):
+    spectrum, rubber, more = SCENES[scene]
+    at = {"pressure": 2e5, "velocity": 0.3, **(HEAT if "heating" in more else {}), **more}
+    result = asperity.friction(spectrum, rubber, gradients=True, **at)
+    rtol = 1e-7 if spectrum is RINGS else 1e-9
+    for name, slope, change in slopes(spectrum, rubber, at, result.gradients):
+
+        def mu(x, change=change):
+            road, e, moved = change(np.exp(x))
+            return asperity.friction(road, e, **{**at, **moved}, rtol=rtol).mu
+
+        h = 1e-3
+        two, four = (mu(h) - mu(-h)) / (2 * h), (mu(2 * h) - mu(-2 * h)) / (4 * h)
+        within = result.gradients.error_estimate + 2e-5 * result.mu
+        assert abs(slope - (4 * two - four) / 3) <= within, name
+
+
+@pytest.mark.parametrize("branch", ["cold", "hot"])
+def test_each_of_several_states_has_its_own_slopes(branch):
+    """Of a rubber that runs away: T(q) on either side of the state that is not stable."""
+    rubber = asperity.PronySeries(equilibrium_modulus=2e6, moduli=[1e9], relaxation_times=[1e-4])
+    road = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=2e4)
+    at = {"pressure": 2e5, "heating": HEATING, "shift": HEAT["shift"], "branch": branch}
+    at |= {"temperature": 243.15, "velocity": 1.0, "rtol": 1e-9}
+    result = asperity.friction(road, rubber, gradients=True, **at)
+    less, more = (
+        asperity.friction(road, rubber, **at | {"velocity": np.exp(x)}).mu for x in (-1e-3, 1e-3)
+    )
+    assert result.branches == 3
+    assert result.gradients.velocity == pytest.approx((more - less) / 2e-3, rel=1e-4)
+
+
+def test_heat_without_slopes():
+    law = asperity.SelfAffineSpectrum(rms_height=2e-6, hurst=0.8, q0=1.2e5, q1=1.5e6)
+    rough = asperity.synthesize(law, shape=(32, 32), pixel_size=2e-6, seed=1)
+    with pytest.raises(asperity.InvalidInput) as refused:
+        asperity.friction(
+            asperity.power_spectrum(rough).truncated(q1=1.5e6),
+            SERIES,
+            pressure=2e6,
+            velocity=0.01,
+            heating=HEATING,
+            correction=asperity.ScanContact(rough, periodic=True),
+            gradients=True,
+            **HEAT,
+        )
+    assert refused.value.argument == "correction"
