@@ -25,7 +25,8 @@ import random_heat
 import asperity
 
 SHARES = {"rings": 0.3, "curves": 0.3}
-STEP = 4e-3
+STEP = 1e-3
+OF_ROWS = 2e-4  # whose interpolant has kinks
 TELLING = 1e-3  # of mu
 LONGEST = 10  # scalars and rows a scene
 
@@ -94,7 +95,11 @@ def numbers(
 
     for name in ("pressure", "velocity"):
         yield name, getattr(of, name), condition(name)
-    yield "temperature", of.temperature * at["temperature"], condition("temperature")
+    yield (
+        "temperature",
+        10 * of.temperature,
+        lambda x: (road, rubber, at | {"temperature": at["temperature"] + 10 * x}),
+    )
     if isinstance(road, asperity.SelfAffineSpectrum):
         for name in ("rms_height", "hurst", "q0", "q1", "rolloff"):
             if getattr(road, name) is not None and (name != "hurst" or road.hurst < 0.98):
@@ -139,7 +144,7 @@ def compute(seed: int, scene: int) -> Outcome:
     rng = np.random.default_rng([seed, scene, 1])
     table = isinstance(road, asperity.TabulatedSpectrum)
     measured = isinstance(rubber, asperity.MasterCurve)
-    finer = 1e-7 if table or measured else 1e-10
+    finer = 1e-8 if table or measured else 1e-10
     outcome = Outcome()
 
     def mu(of: tuple[Any, Any, dict[str, Any]]) -> Any:
@@ -157,14 +162,15 @@ def compute(seed: int, scene: int) -> Outcome:
     all_numbers = list(numbers(road, rubber, at, of, rng))
     chosen = rng.permutation(len(all_numbers))[:LONGEST]
     for name, slope, change in (all_numbers[k] for k in chosen):
+        step = OF_ROWS if name.endswith("modulus") and measured else STEP
         try:
-            near, far = ([mu(change(side * h)) for side in (-1, 1)] for h in (STEP, 2 * STEP))
+            near, far = ([mu(change(side * h)) for side in (-1, 1)] for h in (step, 2 * step))
         except asperity.Error:
             continue
-        two, four = ((b.mu - a.mu) / h for (a, b), h in ((near, 2 * STEP), (far, 4 * STEP)))
+        two, four = ((b.mu - a.mu) / h for (a, b), h in ((near, 2 * step), (far, 4 * step)))
         best = (4 * two - four) / 3
         # four to three is what the error of mu does to it; kinks leave part of what steps tell
-        left = abs(best - two) / 2 + 3 * sum(one.error_estimate for one in near) / (2 * STEP)
+        left = abs(best - two) / 2 + 3 * sum(one.error_estimate for one in near) / (2 * step)
         if left <= TELLING * whole:
             stated = of.error_estimate + (1e-3 * whole if name in ("q0", "q1") else 0)
             outcome.errors[name] = tuple(

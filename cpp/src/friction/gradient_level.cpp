@@ -33,6 +33,7 @@ ContactGridOptions grid_options(const GradientScene& scene, std::size_t number, 
   result.stops = scene.rows;
   const std::vector<double> kinks = waves.stops();
   result.stops.insert(result.stops.end(), kinks.begin(), kinks.end());
+  if (result.window) result.stops.push_back(window.last_from());  // where what moves q_e begins
   return result;
 }
 

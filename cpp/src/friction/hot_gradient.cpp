@@ -21,7 +21,11 @@ std::vector<std::string> heating_arguments(const Heating& heating, bool adhesion
 
 HotGradient::HotGradient(const GradientScene& scene, const HeatScene& heat, Branch branch)
     : scene_(scene), heat_(heat), solve_(heat, branch) {
-  if (std::holds_alternative<SelfAffineSpectrum>(scene.spectrum)) solve_.set_stops(scene.rows);
+  if (!std::holds_alternative<SelfAffineSpectrum>(scene.spectrum)) return;
+  std::vector<double> stops = scene.rows;
+  if (std::holds_alternative<PartialContact>(scene.model.correction))
+    stops.push_back(RoughnessWindow(scene.surface).last_from());  // where what moves q_e begins
+  solve_.set_stops(std::move(stops));
 }
 
 GradientChain& HotGradient::chain_of(const FlashMap& map) {

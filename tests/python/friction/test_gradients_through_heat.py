@@ -94,8 +94,16 @@ def slopes(spectrum, rubber, at, of):
     for name in ("pressure", "velocity"):
         yield name, getattr(of, name), lambda f, n=name: (spectrum, rubber, {n: at[n] * f})
     if "heating" in at:
-        by_log = of.temperature * at["temperature"]
-        yield "temperature", by_log, lambda f: (spectrum, rubber, {"temperature": 290.0 * f})
+        by_ten = 10 * of.temperature
+        yield (
+            "temperature",
+            by_ten,
+            lambda f: (
+                spectrum,
+                rubber,
+                {"temperature": 290.0 + 10 * np.log(f)},
+            ),
+        )
     if spectrum is ROAD:
         for name in ("rms_height", "hurst", "q0", "rolloff"):
             yield name, getattr(of, name), lambda f, n=name: (changed(ROAD, n, f), rubber, {})
