@@ -143,7 +143,7 @@ permissive() {
   SKBUILD_BUILD_DIR=build/permissive-py "$python" -m pip install -q --no-deps --no-build-isolation \
     --target build/permissive-site -C cmake.define.ASPERITY_PERMISSIVE=ON . || return
   PYTHONPATH=$PWD/build/permissive-site "$python" -m pytest -q -p no:cacheprovider tests/python/spectrum \
-    tests/python/surface tests/python/sliding tests/python/project/test_licence.py \
+    tests/python/surface tests/python/project/test_licence.py \
     tests/python/friction/test_permissive.py &&
     "$python" tests/stability/permissive.py build/permissive-site
 }

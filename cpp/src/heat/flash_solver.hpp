@@ -36,7 +36,6 @@ class FlashSolver {
   void forget();
   /// Passes on the grid of a level, two digits more for each.
   FlashMap& map_of(std::size_t level);
-  [[nodiscard]] bool has_level(std::size_t level) const { return level < levels_.size(); }
 
   /// The grid on which the last point was solved, with the rise at its temperature points [K].
   [[nodiscard]] FlashMap& finest_map() { return map_of(finest_); }

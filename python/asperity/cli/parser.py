@@ -234,6 +234,7 @@ def parser() -> argparse.ArgumentParser:
     fit.add_argument(
         "--free",
         type=keys,
+        action="extend",
         metavar="KEY,...",
         help="fit these numbers of the scene instead, as surface.q1_per_m, rubber.moduli_pa[2]",
     )

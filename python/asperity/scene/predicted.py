@@ -75,7 +75,8 @@ def sentence_on(
     if fitted:
         shown[1] = shown[1].replace("inputs", "fitted numbers")
     which = "left out of the fit one at a time, " if fitted else ""
-    how = f"{fitted} numbers of it were fitted to them" if fitted else "nothing was fitted to them"
+    numbers = "one number of it was" if fitted == 1 else f"{fitted} numbers of it were"
+    how = f"{numbers if fitted else 'nothing was'} fitted to them"
     of_points = "without" if scatter is None else f"with {_share(scatter)} for"
     return (
         f"Of {size} measured friction coefficients, {which}the scene predicts each to "

@@ -270,7 +270,8 @@ def test_the_verb_has_the_digits_of_the_function(scene, tmp_path, capsys):
     rows = np.column_stack([measured["pressure"], measured["velocity"], measured["mu"]])
     np.savetxt(file, rows, delimiter=",", header="pressure_pa,velocity_m_s,mu", comments="")
     free = ",".join(KEYS)
-    assert main(["fit", str(path), str(file), "--free", free, "--json", "--output", str(out)]) == 0
+    each = [word for key in KEYS for word in ("--free", key)]  # or parted by commas
+    assert main(["fit", str(path), str(file), *each, "--json", "--output", str(out)]) == 0
     said, made = json.loads(out.read_text()), fit_scene(path, file, free=[*KEYS])
     [inputs] = said["inputs"]
     assert [x[1] for x in inputs["found"].values()] == [*made.value.values()]
