@@ -9,6 +9,7 @@
 #include <string>
 
 #include "asperity/contact.hpp"
+#include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/libraries.hpp"
 #include "numerics/shown_range.hpp"
@@ -30,8 +31,7 @@ inline void check_contact(const ContactModel& model, std::span<const double> pre
   if (!has_gsl_and_fftw) check_gauss(model.method, "in a build without GSL, as ASPERITY_PERMISSIVE makes it");
   validate(model.correction);
   require_finite("direction", model.direction);
-  const bool by_rule =
-      std::holds_alternative<PartialContact>(model.correction) || std::holds_alternative<ScanContact>(model.correction);
+  const bool by_rule = has_own_rule(model.correction) || std::holds_alternative<ScanContact>(model.correction);
   if (model.form != Form::exact && by_rule)
     throw InvalidInput(argument("form") + " = " + word("interpolated") + must_be() +
                        "exact with PartialContact and ScanContact, whose rule has the exact A / A0 in it");

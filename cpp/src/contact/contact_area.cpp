@@ -11,6 +11,7 @@
 #include "asperity/contact.hpp"
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/correction.hpp"
 #include "contact/model_error.hpp"
 #include "contact/scan_ratio.hpp"
 #include "contact/solver/solver.hpp"
@@ -147,8 +148,6 @@ void refuse_scan(const ContactModel& model, const char* what) {
                        ", must be another one; validation.slide gives the pressure at every point");
 }
 
-bool by_partial_contact(const ContactModel& model) { return std::holds_alternative<PartialContact>(model.correction); }
-
 }  // namespace
 
 std::vector<double> contact_area(const Spectrum& given, const Rubber& rubber, const ContactModel& model,
@@ -159,7 +158,7 @@ std::vector<double> contact_area(const Spectrum& given, const Rubber& rubber, co
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   if (const auto* const scan = scan_of(model)) return scan_area(*scan, spectrum, rubber, model, pressure, velocity, q);
   std::vector<double> result(pressure.size() * q.size());
-  if (by_partial_contact(model)) {
+  if (has_own_rule(model.correction)) {
     visit_partial(spectrum, rubber, model, pressure, velocity, q,
                   [&](std::size_t i, std::size_t j, double, double area) { result[i * q.size() + j] = area; });
     return result;
@@ -189,7 +188,7 @@ std::vector<Diagnostic> contact_notes(const Spectrum& given, const Rubber& rubbe
   ModelError model_error(model.correction, spectrum, rubber);
   double last = 0;
   ContactModel persson = model;  // by whose G the regimes of PartialContact are told
-  if (by_partial_contact(model)) persson.correction = NoCorrection{};
+  if (has_own_rule(model.correction)) persson.correction = NoCorrection{};
   visit_g(spectrum, surface, rubber, persson, pressure, velocity, {&q1, 1},
           [&](std::size_t i, std::size_t, double g, const Shift& shift) {
             ValidityFlags flags = g < 0 ? ValidityFlags{} : validity(g, shift.p);
@@ -219,7 +218,7 @@ std::vector<double> correction_factor(const Spectrum& given, const Rubber& rubbe
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   const std::vector<Segment> surface = surface_up_to(spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
-  if (by_partial_contact(model)) {
+  if (has_own_rule(model.correction)) {
     check_contact(model, pressure, velocity);
     check_frequencies(spectrum, rubber, velocity);
     const SurfaceSegments whole(spectrum);
@@ -272,7 +271,7 @@ std::vector<double> pressure_distribution(const Spectrum& given, const Rubber& r
     const double bell = std::exp(-from_nominal * from_nominal / (4 * g)) / std::sqrt(4 * pi * g);
     result[i] = -bell * std::expm1(-x / g) / pressure[i];
   };
-  if (by_partial_contact(model)) {
+  if (has_own_rule(model.correction)) {
     visit_partial(spectrum, rubber, model, pressure, velocity, q,
                   [&](std::size_t i, std::size_t, double g, double) { at_g(i, g); });
     return result;

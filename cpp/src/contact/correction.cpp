@@ -158,6 +158,8 @@ Shift affine_shift(const Correction& correction, const Spectrum& spectrum, const
                     correction);
 }
 
+bool has_own_rule(const Correction& correction) { return std::holds_alternative<PartialContact>(correction); }
+
 std::optional<double> asperity_wavenumber(const Correction& correction, const Spectrum& spectrum) {
   return std::visit(
       [&](const auto& s) -> std::optional<double> {

@@ -1,4 +1,5 @@
-// The wavenumber and the modulus that decide the state of the Greenwood-Williamson corrections.
+// Which corrections have a rule of their own, and the wavenumber and the modulus that decide the state of the
+// Greenwood-Williamson ones.
 #pragma once
 
 #include <optional>
@@ -6,6 +7,10 @@
 #include "asperity/correction.hpp"
 
 namespace asperity {
+
+/// Whether a theory of its own (contact/theory/theory.hpp) takes the place of Persson's P, over the roughness about
+/// each wave.
+bool has_own_rule(const Correction& correction);
 
 /// q0 [1/m] of the macro-asperities, whose modulus decides. None for corrections that know no such model.
 std::optional<double> asperity_wavenumber(const Correction& correction, const Spectrum& spectrum);

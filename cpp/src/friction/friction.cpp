@@ -14,6 +14,7 @@
 
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/correction.hpp"
 #include "contact/model_error.hpp"
 #include "contact/solver/solver.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
@@ -97,7 +98,7 @@ class PointSolver {
   ModelError model_error_;
   double velocity_ = 0;  // of the point before
   Solver solver_;
-  bool partial_ = std::holds_alternative<PartialContact>(scene_.model.correction);
+  bool partial_ = has_own_rule(scene_.model.correction);
 };
 
 Point PointSolver::operator()(double pressure, double velocity, const Shift& shift) {
@@ -183,7 +184,7 @@ Contributions empty_contributions(const Spectrum& spectrum, std::span<const Segm
   }
   double end = q1;
   std::vector<double> wavenumber = contribution_wavenumbers(q0, q1, front);
-  if (std::holds_alternative<PartialContact>(model.correction)) {
+  if (has_own_rule(model.correction)) {
     // the density jumps where the edges begin, and at q1
     const double edges = RoughnessWindow(surface).end(), last = edges * partial_contact::tail_end;
     for (const double q : {std::nextafter(edges, q0), edges}) {

@@ -21,7 +21,7 @@ ContactGridOptions grid_options(const GradientScene& scene, std::size_t number, 
   result.poisson_ratio = scene.model.poisson_ratio;
   result.level = number;
   result.tabulated = std::holds_alternative<MasterCurve>(scene.rubber);
-  if (std::holds_alternative<PartialContact>(scene.model.correction)) result.window = &window;
+  if (has_own_rule(scene.model.correction)) result.window = &window;
   const Excitation waves(scene.rubber, scene.model, scene.surface);
   const auto* const table = std::get_if<TabulatedSpectrum>(&scene.spectrum);
   constexpr std::size_t few = 8;

@@ -10,6 +10,7 @@
 
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/correction.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
 #include "friction/before_heating.hpp"
 #include "friction/gradient_level.hpp"
@@ -80,8 +81,7 @@ class Table {
       : surface_(spectrum),
         rows_(rows_of(spectrum)),
         modulus_(rubber, slowest * band(spectrum)[0],
-                 fastest * band(spectrum)[1] *
-                     (std::holds_alternative<PartialContact>(model.correction) ? partial_contact::tail_end : 1)),
+                 fastest * band(spectrum)[1] * (has_own_rule(model.correction) ? partial_contact::tail_end : 1)),
         scene_{spectrum, rubber, model, adhesion, surface_.get(), rows_, modulus_},
         of_rows_(weights_of(rows_)),
         of_modulus_(weights_of(modulus_.angular_frequency())) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "contact/correction.hpp"
 #include "friction/before_heating.hpp"
 
 namespace asperity {
@@ -23,7 +24,7 @@ HotGradient::HotGradient(const GradientScene& scene, const HeatScene& heat, Bran
     : scene_(scene), heat_(heat), solve_(heat, branch) {
   if (!std::holds_alternative<SelfAffineSpectrum>(scene.spectrum)) return;
   std::vector<double> stops = scene.rows;
-  if (std::holds_alternative<PartialContact>(scene.model.correction))
+  if (has_own_rule(scene.model.correction))
     stops.push_back(RoughnessWindow(scene.surface).last_from());  // where what moves q_e begins
   solve_.set_stops(std::move(stops));
 }

@@ -115,7 +115,7 @@ FlashSolver::FlashSolver(const HeatScene& scene, Branch branch)
       known_(known_range(scene.rubber)),
       levels_(has_rows() ? levels_with_rows : levels),
       uniform_(scene) {
-  if (std::holds_alternative<PartialContact>(scene.model.correction)) window_.emplace(scene.surface);
+  if (has_own_rule(scene.model.correction)) window_.emplace(scene.surface);
   const double digits = -std::log10(scene.model.rtol);
   first_level_ = 1;  // differences of coarser grids are small by chance where a front is thin
   while (first_level_ + 2 < levels && digits_of(first_level_ + 1) < digits + 1) ++first_level_;

@@ -107,12 +107,11 @@ double distance_to_last(const std::vector<double>& values, double step) {
 
 double sliding_length(const HeatScene& scene, const HeatPoint& point) {
   const RoughnessWindow window(scene.surface);
-  const ContactGridOptions options{
-      .poisson_ratio = scene.model.poisson_ratio,
-      .level = level,
-      .tabulated = std::holds_alternative<MasterCurve>(scene.rubber),
-      .macro_wavenumber = scene.macro_wavenumber,
-      .window = std::holds_alternative<PartialContact>(scene.model.correction) ? &window : nullptr};
+  const ContactGridOptions options{.poisson_ratio = scene.model.poisson_ratio,
+                                   .level = level,
+                                   .tabulated = std::holds_alternative<MasterCurve>(scene.rubber),
+                                   .macro_wavenumber = scene.macro_wavenumber,
+                                   .window = has_own_rule(scene.model.correction) ? &window : nullptr};
   const HeatGrid grid(scene.surface, options, asperity_wavenumber(scene.model.correction, scene.spectrum));
   FlashMap map(scene, grid);
   map.start(point);

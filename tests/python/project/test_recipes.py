@@ -54,4 +54,5 @@ def test_what_a_change_costs() -> None:
     costs = {recipe: len(rows(recipe)) for recipe in RECIPES}
     assert costs["Add a parameter"] == 4
     assert costs["Add a correction by an S"] == 5
+    assert costs["Add a correction with a rule of its own"] == 8
     assert costs["Add a column of the friction result"] == 3

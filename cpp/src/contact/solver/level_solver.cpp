@@ -8,6 +8,7 @@
 
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/correction.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
 #include "spectrum/table_surface.hpp"
 
@@ -53,7 +54,7 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surf
       stiffening_(1 / (1 - model.poisson_ratio * model.poisson_ratio)),
       edges_of_(waves, for_edges * model.rtol),
       known_(known_range(waves.rubber())) {
-  if (std::holds_alternative<PartialContact>(model.correction)) window_.emplace(surface);
+  if (has_own_rule(model.correction)) window_.emplace(surface);
   if (const auto* const series = std::get_if<PronySeries>(&waves.rubber())) {
     known_in_part_ = series->fitted_range().has_value();
     analytic_.emplace(PronySeries(series->equilibrium_modulus(), series->moduli(), series->relaxation_times()));

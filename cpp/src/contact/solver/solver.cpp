@@ -9,6 +9,7 @@
 
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
+#include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {
@@ -49,8 +50,7 @@ Solver::Solver(const Spectrum& spectrum, std::span<const Segment> surface, const
       panel_solver_(surface, waves_, model.poisson_ratio, model.rtol) {
   check_scales(surface);
   if (model.method != Method::gauss) return;
-  const bool panels =
-      options.levels || std::holds_alternative<PartialContact>(model.correction) || waves_.directions() != nullptr;
+  const bool panels = options.levels || has_own_rule(model.correction) || waves_.directions() != nullptr;
   if (panels || !options.parts)
     levels_.emplace(spectrum, surface, waves_, model,
                     LevelSolver::Options{.parts = options.parts, .stops = options.stops, .panels = panels});
