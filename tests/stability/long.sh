@@ -5,6 +5,7 @@
 #   partial      PartialContact: the roots of ten thousand random scenes, the estimates of five thousand, and forty thousand
 #                points on tables against brute force
 #   heat         two thousand random scenes that heat themselves, against a tolerance of 1e-11, and a thousand of master curves
+#   gradients    slopes of mu on two thousand random scenes, against central differences
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each;
 #                with heat those of measured scans
 #   tests        the tests of Python that take too long for every day
@@ -66,6 +67,8 @@ heat() {
   "$python" tests/stability/random_heat.py --scenes 2000 --rings 0.1 &&
     "$python" tests/stability/random_heat.py --scenes 1000 --seed 3 --rings 0.5 --curves 1
 }
+
+gradients() { "$python" tests/stability/random_gradients.py --scenes 2000; }
 
 maps() {
   "$python" tests/stability/random_maps.py --maps 200 &&
@@ -150,13 +153,13 @@ permissive() {
 
 aarch64() { JOBS=$jobs sh tests/stability/aarch64.sh; }
 
-[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings partial heat maps tests properties files interrupts fuzz \
+[ $# -gt 0 ] || set -- catalogue isotherms coverage scenes rings partial heat gradients maps tests properties files interrupts fuzz \
   sanitize threads memcheck wine browser permissive
 for step; do
   case $step in
-    catalogue | isotherms | coverage | scenes | rings | partial | heat | maps | tests | properties | files | interrupts | fuzz) ;;
+    catalogue | isotherms | coverage | scenes | rings | partial | heat | gradients | maps | tests | properties | files | interrupts | fuzz) ;;
     sanitize | threads | memcheck | wine | browser | permissive | aarch64) ;;
-    *) sed -n '2,27s/^# //p' "$0" >&2; exit 2 ;;
+    *) sed -n '2,28s/^# //p' "$0" >&2; exit 2 ;;
   esac
 done
 for step; do

@@ -31,8 +31,8 @@ struct Gradients {
     std::vector<double> values;
   };
   std::vector<OfArgument> arguments;
-  /// Of every slope of a point, absolute; of a density, of its integral. Those over q0 and q1 have up to 1e-3 of mu
-  /// more.
+  /// Of every slope of a point, absolute; of a density, of its integral. Those over q0, q1 and single rows of a
+  /// master curve have up to 1e-3 of mu more.
   std::vector<double> error_estimate;
 };
 

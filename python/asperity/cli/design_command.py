@@ -4,6 +4,7 @@ from argparse import Namespace
 from typing import Any
 
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
+from asperity.io.fields import refuse
 from asperity.io.table import Table
 from asperity.plot.design import design_figure
 from asperity.scene.design import design as designed
@@ -14,7 +15,10 @@ from asperity.scene.scene import load_scene
 def design(args: Namespace) -> None:
     """Print or write the table, a row a part of the inputs and a point, and its picture."""
     outputs = check_outputs(args)
-    scene = load_scene(args.scene)
+    scene = load_scene(args.scene, for_friction=True)
+    if scene.others:
+        problem = "several temperatures or directions are for asperity friction alone: must be one"
+        refuse(scene.path, "[conditions]", problem)
     refuse_overwrite(outputs, scene.sources)
     found = designed(scene)
     rows = found.worths

@@ -30,6 +30,14 @@ _NUMBERS = (
     "shear_stress",
     "reference_velocity",
     "width",
+    "strain_per_slope",
+    "density",
+    "heat_capacity",
+    "conductivity",
+    "contact_diameter",
+    "macro_wavenumber",
+    "macro_area",
+    "interface_share",
 )
 
 

@@ -83,11 +83,25 @@ def test_the_verb_writes_a_row_a_part_and_a_picture(scene, tmp_path):
     assert picture.stat().st_size > 10_000
 
 
-def test_heat_is_refused(scene, capsys):
+def test_heat_has_its_parts(scene):
     heating = "density_kg_m3 = 1e3\nheat_capacity_j_kg_k = 2e3\nconductivity_w_m_k = 0.2\n"
-    scene.write_text(SCENE + "[heating]\n" + heating + "contact_diameter_m = 1e-3\n")
+    text = SCENE + "[heating]\n" + heating + "contact_diameter_m = 1e-3\n[solver]\nrtol = 1e-9\n"
+
+    def mu(spot: str) -> float:
+        scene.write_text(text.replace("1e-3\n", spot + "\n"))
+        return float(load_scene(scene, for_friction=True).friction().mu[0, 0])
+
+    smaller, larger = mu("0.99e-3"), mu("1.01e-3")
+    assert main(["design", str(scene)]) == 0
+    worths = design(load_scene(scene, for_friction=True)).worths
+    spot = next(one for one in worths if one.part == "contact_diameter" and one.pressure == 1e5)
+    assert spot.mu == pytest.approx(MORE * (larger - smaller) / np.log(1.01 / 0.99), rel=1e-2)
+
+
+def test_several_temperatures_are_refused(scene, capsys):
+    scene.write_text(SCENE.replace("temperature_c = 30", "temperature_c = [20, 30]"))
     assert main(["design", str(scene)]) == 2
-    assert "[heating]" in capsys.readouterr().err
+    assert "[conditions]" in capsys.readouterr().err
 
 
 def test_an_error_names_the_key_that_the_scene_has(scene, capsys):

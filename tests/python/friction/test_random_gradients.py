@@ -1,0 +1,17 @@
+"""Slopes of mu on random scenes; tests/stability/random_gradients.py takes 2,000 of them."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
+from random_gradients import compute
+
+
+@pytest.mark.parametrize("scene", range(24))
+def test_slopes_are_those_of_differences_within_the_stated_error(scene: int) -> None:
+    outcome = compute(7, scene)
+    assert outcome.refused in ("", "no friction")
+    for name, (error, stated, left) in outcome.errors.items():
+        assert error <= stated + left, name
