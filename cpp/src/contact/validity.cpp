@@ -8,6 +8,7 @@
 #include <limits>
 #include <tuple>
 
+#include "contact/correction.hpp"
 #include "contact/heights.hpp"
 #include "numerics/arguments.hpp"
 #include "spectrum/table_surface.hpp"
@@ -53,7 +54,9 @@ bool mostly_below(const Spectrum& spectrum, double q) {
 }
 
 std::optional<double> unmeasured_nayak(const Spectrum& spectrum, const Correction& correction) {
-  if (std::holds_alternative<NoCorrection>(correction) || std::holds_alternative<PartialContact>(correction)) return {};
+  if (std::holds_alternative<NoCorrection>(correction) || std::holds_alternative<ScanContact>(correction) ||
+      has_own_rule(correction))
+    return {};
   const double alpha = nayak_parameter(spectrum);
   if (alpha >= lowest_measured_nayak && alpha <= highest_measured_nayak) return {};
   return alpha;
@@ -139,7 +142,7 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
                            "more than half of the mean square slope is of waves up to " +
                                value(flagged_ends_[0], 4, "1/m") +
                                " 1/m, and mu with it, but the scan is too small to know their heights",
-                           {"measure a longer scan, or one with finer pixels"}));
+                           {"measure a longer scan, or end the spectrum later"}));
   if (flagged_ends_[0] > 0)
     result.push_back(warning("few-periods",
                              "the measured spectrum is uncertain up to " + value(flagged_ends_[0], 4, "1/m") +

@@ -195,21 +195,36 @@ std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Prep
   return total;
 }
 
-/// The harmonics up to the last that a scan supports.
-RingHarmonics supported(const RingHarmonics& all, const RowQuality& quality, std::size_t rows) {
-  constexpr double sure = 4;  // standard errors of a mean over rings
+/// The harmonics up to the last that some octave of the scan's roughness supports: rows of noise have the most modes,
+/// and would drown others in a mean over all.
+RingHarmonics supported(const RingHarmonics& all, const RowQuality& quality, std::span<const double> q,
+                        std::span<const double> density) {
+  constexpr double sure = 4;            // standard errors of a mean over an octave
+  constexpr double least_share = 1e-3;  // of the mean square slope
+  struct Octave {
+    double slope = 0, cosine = 0, sine = 0, variance = 0;
+  };
+  const std::size_t rows = q.size();
   std::size_t count = 1;
   for (std::size_t m = 1; m < all.count; ++m) {
-    double cosine = 0, sine = 0, weights = 0;
+    std::vector<Octave> octaves;
+    double whole = 0;
     for (std::size_t i = 0; i < rows; ++i) {
-      const double error = all.standard_error[i * all.count + m];
-      if (quality.flag[i] != 0 || !(error > 0)) continue;
-      const double weight = 1 / (error * error);
-      cosine += weight * all.cosine[i * all.count + m];
-      sine += weight * all.sine[i * all.count + m];
-      weights += weight;
+      if (quality.flag[i] != 0) continue;
+      const auto number = static_cast<std::size_t>(std::log2(q[i] / q[0]));
+      if (octaves.size() <= number) octaves.resize(number + 1);
+      Octave& o = octaves[number];
+      const double power = quality.count[i] * density[i], error = power * all.standard_error[i * all.count + m];
+      o.slope += power * q[i] * q[i];
+      whole += power * q[i] * q[i];
+      o.cosine += power * all.cosine[i * all.count + m];
+      o.sine += power * all.sine[i * all.count + m];
+      o.variance += error * error;
     }
-    if (weights > 0 && std::hypot(cosine, sine) > sure * std::sqrt(weights)) count = m + 1;
+    if (std::ranges::any_of(octaves, [&](const Octave& o) {
+          return o.slope > least_share * whole && std::hypot(o.cosine, o.sine) > sure * std::sqrt(o.variance);
+        }))
+      count = m + 1;
   }
   RingHarmonics result{count, {}, {}, {}};
   for (std::size_t i = 0; i < rows; ++i)
@@ -296,7 +311,7 @@ TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::option
   if (wavenumber.size() < 2)
     throw InvalidInput(argument("surface") + " has shape (" + std::to_string(ny) + ", " + std::to_string(nx) + ")" +
                        must(": must have ") + "more points; these make only one ring of wavenumbers");
-  if (most > 0) harmonics = supported(harmonics, quality, wavenumber.size());
+  if (most > 0) harmonics = supported(harmonics, quality, wavenumber, density);
   const double nyquist = std::min(pi / std::max(dy, dx), wavenumber.back());  // beyond it rings are incomplete
   return {std::move(wavenumber), std::move(density), std::move(quality), std::move(harmonics), nyquist};
 }

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from asperity._core import InvalidInput
 from asperity.base.arguments import broadcast, frozen
-from asperity.base.diagnostics import Argument, Note, Value, fatal_first, refusal
+from asperity.base.diagnostics import Argument, Must, Note, Value, fatal_first, refusal
 from asperity.results.friction import Friction, joined
 from asperity.spectrum import Spectrum
 
@@ -29,6 +30,10 @@ def over_directions(
     for name, given in alone.items():
         if given:
             raise refusal("direction", direction, f"one number with {name}")
+    if not np.size(direction):
+        raise InvalidInput(
+            Argument("direction"), " has 0 entries", Must(": must have "), "1 or more"
+        )
     given = {name: one for name, one in points.items() if one is not None}
     shape, (angle, *columns) = broadcast(direction=direction, **given)
     if not angle.size:

@@ -56,8 +56,8 @@ class Gradients(Table):
         The same, where they are given, and the last with adhesion.
     error_estimate : float or ndarray
         Absolute error of a slope, and of the integral of a density's error: four times what a
-        finer grid changes, and 2e-4 of mu or so. Slopes over `q0`, `q1` and single rows of a master curve, whose
-        interpolant has kinks, have up to 1e-3 of mu more.
+        finer grid changes, and 2e-4 of mu or so. Slopes over `q0`, `q1` and single rows of a
+        master curve, whose interpolant has kinks, have up to 1e-3 of mu more.
     """
 
     wavenumber: Array

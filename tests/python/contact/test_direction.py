@@ -406,3 +406,31 @@ def test_the_picture_over_directions_is_polar():
         "100 kPa, 57.3°",
     ]
     pyplot.close("all")
+
+
+@pytest.mark.parametrize("finer", [4, 8])
+def test_noise_beyond_the_roughness_hides_no_harmonics(finer):
+    n, u = 64, 2 * np.pi / 1e-3
+    law = SelfAffineSpectrum(rms_height=1e-6, hurst=0.8, q0=4 * u, q1=28 * u, axis_ratio=4, lay=0.4)
+    rough = asperity.synthesize(law, shape=(n, n), pixel_size=1e-3 / n, seed=3).heights
+    modes, points = np.fft.fftshift(np.fft.fft2(rough)), n * finer
+    padded = np.pad(modes, (points - n) // 2)
+    heights = np.fft.ifft2(np.fft.ifftshift(padded)).real * finer**2
+    heights += 1e-10 * np.random.default_rng(0).normal(size=heights.shape)
+    fine = asperity.HeightMap(heights, pixel_size=1e-3 / points)
+    plain = asperity.HeightMap(rough, pixel_size=1e-3 / n)
+    how = {"window": "none", "detrend": "offset", "directional": True}
+    spectra = [asperity.power_spectrum(one, **how) for one in (plain, fine)]
+    coarse_mu, fine_mu = (
+        asperity.friction(
+            one.truncated(q0=5 * u, q1=27 * u), RUBBER, pressure=2e5, velocity=0.1, direction=0.4
+        ).mu
+        for one in spectra
+    )
+    assert fine_mu == pytest.approx(coarse_mu, rel=5e-3)
+
+
+def test_no_directions_are_refused():
+    with pytest.raises(InvalidInput) as caught:
+        asperity.friction(rows(0.4), RUBBER, pressure=1e5, velocity=0.1, direction=[])
+    assert caught.value.argument == "direction"
