@@ -47,6 +47,8 @@ _CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-
 _OF_ALL = {"modulus-extrapolated", "modulus-unmeasured", "small-friction"}
 _OF_ALL |= {code for code in NOTES if code.startswith(("absurd-", "unusual-", "squashed-"))}
 _OF_STRAIN = "strain-beyond-sweeps"
+# what a spectrum does not know of a surface
+_KNOWN_TO_SCANS = {"lines-in-spectrum", "heights-not-gaussian", "gathered-waves"}
 
 
 @value
@@ -107,9 +109,10 @@ class Scene:
     @property
     def notes(self) -> list[Note]:
         """What the inputs give to note, before anything is computed."""
-        of_heights = () if isinstance(self.correction, ScanContact) else self.surface.fitted_heights
-        notes = [*self.unusual, *self.surface.notes, *of_heights, *self.built_rubber.notes]
-        return self._in_its_unit(notes)
+        of_surface = [*self.surface.notes, *self.surface.fitted_heights]
+        if isinstance(self.correction, ScanContact):
+            of_surface = [note for note in of_surface if note.code not in _KNOWN_TO_SCANS]
+        return self._in_its_unit([*self.unusual, *of_surface, *self.built_rubber.notes])
 
     @property
     def derived(self) -> Mapping[str, Any]:

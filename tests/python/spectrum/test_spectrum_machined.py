@@ -1,11 +1,14 @@
 """Turned surfaces have lines in their spectra, random ones have none."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 import asperity
 from asperity.base.diagnostics import Note
 from asperity.scene.scan import line_notes
+from asperity.scene.scene import load_scene
 
 PIXEL = 1e-6
 
@@ -34,6 +37,19 @@ def test_grooves_are_noted_with_their_distance(period: float) -> None:
     orders = np.arange(1, 9) / (period * PIXEL)
     wave = float(str(note).split("one of ")[1].split(" m")[0])
     assert np.abs(1 / wave - orders).min() < 1 / (200 * PIXEL)  # a ring
+
+
+@pytest.mark.parametrize("kind", ["partial-contact", "scan-contact"])
+def test_the_contact_of_the_scan_knows_its_grooves(tmp_path: Path, kind: str) -> None:
+    np.save(tmp_path / "scan.npy", rough(1) + 2e-6 * np.abs(np.sin(np.pi * np.arange(196) / 8.3)))
+    (tmp_path / "scene.toml").write_text(
+        f'[surface]\nfile = "scan.npy"\npixel_size_m = {PIXEL}\nunit = "m"\n'
+        "[rubber]\nequilibrium_modulus_pa = 1e6\nmoduli_pa = [9e6]\nrelaxation_times_s = [1e-3]\n"
+        "[conditions]\npressure_pa = 2e5\nvelocity_m_s = 0.1\n"
+        f'[correction]\nkind = "{kind}"\n'
+    )
+    codes = [note.code for note in load_scene(tmp_path / "scene.toml").notes]
+    assert ("lines-in-spectrum" in codes) == (kind == "partial-contact")
 
 
 @pytest.mark.parametrize("hurst", [0.2, 0.8, 1.0])
