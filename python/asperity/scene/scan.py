@@ -122,7 +122,7 @@ def scan_notes(scan: Scan, found: Lay | None, *, directional: bool = False) -> l
 
 
 def _worn_notes(scan: LineScan) -> list[Note]:
-    """What the full spectrum of a profile with worn tops may be worth, in docs/sliding.md."""
+    """What the full spectrum of a profile with worn tops may be worth, in docs/notes/sliding.md."""
     level = scan.detrend("plane")
     if not level.skewness < _WORN:
         return []

@@ -1,6 +1,6 @@
 """Elastic contacts of another group beside every correction, their gaps beside those of `slide`.
 
-    python tests/benchmarks/outside/elastic.py CLONE [docs/explanation/outside_elastic.png]
+    python tests/benchmarks/outside/elastic.py CLONE [docs/notes/outside_elastic.png]
 
 CLONE is one of xylcsi/PerssonModelFudgeFactor: Green's function molecular dynamics of Y. Zhou,
 areas in the mean of maps (Data/Area_GFMD_Zhou.mat) and gaps of a set (GFMD_final_results_*.mat).

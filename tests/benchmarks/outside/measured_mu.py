@@ -1,6 +1,6 @@
 """Measured dry mu of five compounds beside hysteresis and a fitted adhesion: 29 points.
 
-    python tests/benchmarks/outside/measured_mu.py CLONE [docs/explanation/outside_measured.png]
+    python tests/benchmarks/outside/measured_mu.py CLONE [docs/notes/outside_measured.png]
 
 CLONE is one of k100kan35-dotcom/psfinal_hysteresis_redesign. The shear stress of the contact, tau =
 (mu - mu_H) p / A, of all compounds but one gives ln tau as a parabola in log10 v (Eq. 23), and with

@@ -1,6 +1,6 @@
 """asperity beside the field's commercial program, on its C(q), modulus, a_T and strain factors.
 
-    python tests/benchmarks/outside/program.py CLONE [docs/explanation/outside_program.png]
+    python tests/benchmarks/outside/program.py CLONE [docs/notes/outside_program.png]
 
 CLONE is one of k100kan35-dotcom/psfinal_hysteresis_redesign. Scheme of the program: S = g + (1 - g)
 P^2 inside G and on the integrand of Eq. 22, one number g, P that of G with S. asperity does not

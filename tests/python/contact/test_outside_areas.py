@@ -3,7 +3,7 @@
 Green's function molecular dynamics of Y. Zhou, mean of many maps of H = 0.8, q1/q0 = 100, h_rms
 6e-6 m, E* 1, from github.com/xylcsi/PerssonModelFudgeFactor (Data/Area_GFMD_Zhou.mat and
 Fig_2_program.m, commit d3341a6; Y. Xu and others, J. Mech. Phys. Solids, 2024). Edges count as
-whole pixels there, which adds some 3 to 9 % at light loads (docs/explanation/outside.md).
+whole pixels there, which adds some 3 to 9 % at light loads (docs/notes/outside.md).
 """
 
 import numpy as np

@@ -1,7 +1,7 @@
 """What the scripts of tests/benchmarks/outside find in clones of others' repositories.
 
 The clones are in the folder that ASPERITY_OUTSIDE names, each by the name of its repository; tests
-that need one are skipped without it. The figures are those of docs/explanation/outside.md.
+that need one are skipped without it. The figures are those of docs/notes/outside.md.
 """
 
 import os
