@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "numerics/arguments.hpp"
 #include "numerics/libraries.hpp"
 #include "numerics/shown_range.hpp"
+#include "spectrum/harmonics.hpp"
 
 namespace asperity {
 
@@ -49,16 +51,16 @@ class AsSolved {
  public:
   AsSolved(const Spectrum& spectrum, const ContactModel& model) : spectrum_(spectrum) {
     if (!is_directional(spectrum) || std::holds_alternative<ScanContact>(model.correction)) return;
-    constexpr double least_rtol = 1e-7;  // of the rows of a law (directional_table)
+    constexpr double least_rtol = 1e-7;  // of the rows of a law
     check_gauss(model.method, "with a directional spectrum, whose force across GSL's methods do not know");
     if (model.rtol < least_rtol) refuse("rtol", model.rtol, "1e-7 or more with a directional spectrum");
-    if (std::holds_alternative<SelfAffineSpectrum>(spectrum)) table_.emplace(directional_table(spectrum));
+    if (const auto* const law = std::get_if<SelfAffineSpectrum>(&spectrum)) rows_ = rows_of_law(*law);
   }
-  [[nodiscard]] const Spectrum& get() const { return table_ ? *table_ : spectrum_; }
+  [[nodiscard]] const Spectrum& get() const { return rows_ ? *rows_ : spectrum_; }
 
  private:
   const Spectrum& spectrum_;
-  std::optional<Spectrum> table_;
+  std::shared_ptr<const Spectrum> rows_;
 };
 
 /// Of an angle in radians.

@@ -1,9 +1,11 @@
 // C(q, phi) of rings and of ellipses: harmonics, densities, and tables of self-affine spectra with a lay.
 #include "spectrum/harmonics.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numbers>
 
 #include "numerics/arguments.hpp"
@@ -28,30 +30,32 @@ double shape(const SelfAffineSpectrum& s, double x, double angle) {
   return s.rolloff && k < 1 ? 1 : std::pow(k, -1 - s.hurst);
 }
 
-/// Means over directions of the shape times cos 2 m (phi - lay), m = 0 to n - 1: by Gauss rules in a quarter of the
-/// circle, which is alike in all, that end where the flat part does.
+/// Means over directions of the shape times cos 2 m (phi - lay), m = 0 to n - 1, in a quarter of the circle, which is
+/// alike in all: of the flat part, which ends it, in closed form, of the rest by Gauss rules.
 std::vector<double> means(const SelfAffineSpectrum& s, double x, std::size_t n) {
-  std::vector<double> result(n), edges{0};
+  std::vector<double> result(n);
   const double r = s.axis_ratio, part = (1 / (x * x) - 1 / r) / (r - 1 / r);  // cos^2 of the angle where k is q_r
-  constexpr int pieces = 12;
-  for (int i = 1; i < pieces; ++i) edges.push_back(pi / 2 * i / pieces);
-  if (s.rolloff && r > 1 && part > 0 && part < 1) edges.push_back(std::acos(std::sqrt(part)));
-  edges.push_back(pi / 2);
-  std::ranges::sort(edges);
+  const double edge = s.rolloff && r > 1 ? std::acos(std::sqrt(std::clamp(part, 0.0, 1.0))) : pi / 2;
+  for (std::size_t m = 0; m < n; ++m)
+    result[m] =
+        m == 0 ? 1 - 2 * edge / pi : -std::sin(2 * static_cast<double>(m) * edge) / (pi * static_cast<double>(m));
   const LegendreRule& rule = legendre_rule(24);
-  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    const double half = (edges[i + 1] - edges[i]) / 2;
-    for (std::size_t j = 0; j < rule.n; ++j) {
-      const double angle = edges[i] + half * (1 + rule.node[j]);
-      const double value = 2 / pi * half * rule.weight[j] * shape(s, x, angle), twice = 2 * std::cos(2 * angle);
-      double before = twice / 2, now = 1;
-      for (std::size_t m = 0; m < n; ++m) {
-        result[m] += value * now;
-        const double next = m == 0 ? twice / 2 : twice * now - before;
-        before = now;
-        now = next;
-      }
-    }
+  const auto pieces = static_cast<std::size_t>(std::ceil(12 * edge / (pi / 2)));
+  const auto nodes = static_cast<Eigen::Index>(pieces * rule.n);
+  Eigen::ArrayXd value(nodes), twice(nodes);
+  for (Eigen::Index i = 0; i < nodes; ++i) {
+    const std::size_t piece = static_cast<std::size_t>(i) / rule.n, j = static_cast<std::size_t>(i) % rule.n;
+    const double half = edge / static_cast<double>(pieces) / 2;
+    const double angle = half * (2 * static_cast<double>(piece) + 1 + rule.node[j]);
+    value[i] = 2 / pi * half * rule.weight[j] * shape(s, x, angle);
+    twice[i] = 2 * std::cos(2 * angle);
+  }
+  Eigen::ArrayXd before = value * twice / 2, now = value, next;
+  for (std::size_t m = 0; m < n; ++m) {
+    result[m] += now.sum();
+    next = twice * now - before;
+    before.swap(now);
+    now.swap(next);
   }
   return result;
 }
@@ -157,10 +161,9 @@ std::vector<double> density(const Spectrum& spectrum, std::span<const double> wa
   return result;
 }
 
-TabulatedSpectrum directional_table(const Spectrum& spectrum) {
-  validate(spectrum);
-  if (const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum)) return *table;
-  const auto& s = std::get<SelfAffineSpectrum>(spectrum);
+namespace {
+
+TabulatedSpectrum table_of(const SelfAffineSpectrum& s) {
   std::vector<double> q = rows_of(s), c;
   const double top = density_at_rolloff(s), from = s.rolloff.value_or(s.q0);
   const double scale = s.rolloff ? 1 : means(s, 1, 1)[0];
@@ -185,6 +188,28 @@ TabulatedSpectrum directional_table(const Spectrum& spectrum) {
       harmonics.sine.push_back(row[m] * std::sin(angle));
     }
   return {std::move(q), std::move(c), {}, std::move(harmonics)};
+}
+
+}  // namespace
+
+std::shared_ptr<const Spectrum> rows_of_law(const SelfAffineSpectrum& law) {
+  static std::mutex mutex;
+  static SelfAffineSpectrum last;
+  static std::shared_ptr<const Spectrum> rows;
+  {
+    const std::scoped_lock lock(mutex);
+    if (rows && last == law) return rows;
+  }
+  auto result = std::make_shared<const Spectrum>(table_of(law));
+  const std::scoped_lock lock(mutex);
+  last = law;
+  return rows = std::move(result);
+}
+
+TabulatedSpectrum directional_table(const Spectrum& spectrum) {
+  validate(spectrum);
+  if (const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum)) return *table;
+  return std::get<TabulatedSpectrum>(*rows_of_law(std::get<SelfAffineSpectrum>(spectrum)));
 }
 
 }  // namespace asperity

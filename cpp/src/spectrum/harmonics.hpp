@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "asperity/spectrum.hpp"
 #include "spectrum/segments.hpp"
@@ -29,6 +30,9 @@ class HarmonicsAt {
 
 /// Whether the mean over directions is no power law: beside the roll-off of an ellipse.
 bool bends_by_direction(const SelfAffineSpectrum& s);
+/// The rows of a law that knows directions. Those of the last one are kept: a map and a sweep ask for them at each
+/// point.
+std::shared_ptr<const Spectrum> rows_of_law(const SelfAffineSpectrum& law);
 /// Mean over directions of (k / |q|)^(-2 - 2 H).
 double mean_of_shape(const SelfAffineSpectrum& s);
 /// h_rms^2 / (2 pi C_r) of one that bends.

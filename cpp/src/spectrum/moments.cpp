@@ -82,7 +82,7 @@ std::vector<Segment> segments(const Spectrum& spectrum) {
   }
   std::vector<Segment> result;
   const auto& s = std::get<SelfAffineSpectrum>(spectrum);
-  if (bends_by_direction(s)) return segments_of_rows(directional_table(s));
+  if (bends_by_direction(s)) return segments_of_rows(std::get<TabulatedSpectrum>(*rows_of_law(s)));
   const double top = density_at_rolloff(s), q_r = s.rolloff.value_or(s.q0);
   if (q_r > s.q0) result.push_back({s.q0, q_r, top, top, 0, false});
   result.push_back({q_r, s.q1, top, top * std::pow(s.q1 / q_r, fall(s)), fall(s), false});
