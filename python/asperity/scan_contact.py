@@ -31,6 +31,7 @@ _PLACE = {True: 0, "mirror": 1, "blend": 3}  # in the core's enumeration
 COLUMNS = {
     "rubber": ("1", "fingerprint of the rubber"),
     "heat": ("1", "fingerprint of the heat, 0 without"),
+    "strain": ("1", "fingerprint of the strain factors, 0 without"),
     "poisson_ratio": ("1", "Poisson's ratio"),
     "q0": ("1/m", "lower end of the band"),
     "q1": ("1/m", "upper end of the band"),
@@ -62,7 +63,7 @@ class SolvedContacts(Table):
 
     Attributes
     ----------
-    rows : ndarray, shape (n, 24)
+    rows : ndarray, shape (n, 25)
         In the order of the columns of `to_dataframe()`. The last four, what `model_error` is made
         of beside `error`, are NaN where they were not judged at that contact.
     """

@@ -45,7 +45,7 @@ py::tuple separations(const Array& pressure, const Array& modulus, double rms_he
   return py::make_tuple(array_of(std::move(effective)), array_of(std::move(rigid)), array_of(std::move(state)));
 }
 
-constexpr py::ssize_t solved_columns = 24;
+constexpr py::ssize_t solved_columns = 25;
 
 /// A row a contact, in the order of `COLUMNS` in scan_contact.py.
 py::array contact_rows(const ScanContact& scan) {
@@ -54,6 +54,7 @@ py::array contact_rows(const ScanContact& scan) {
   for (const SolvedContact& c : contacts)
     rows.insert(rows.end(), {static_cast<double>(c.rubber),
                              static_cast<double>(c.heat),
+                             static_cast<double>(c.strain),
                              c.poisson_ratio,
                              c.q0,
                              c.q1,
@@ -84,28 +85,29 @@ void add_contacts(ScanContact& scan, const Array& rows) {
   for (py::ssize_t i = 0; i < rows.size() / solved_columns; ++i, r += solved_columns) {
     const SolvedContact c{.rubber = static_cast<std::uint64_t>(r[0]),
                           .heat = static_cast<std::uint64_t>(r[1]),
-                          .poisson_ratio = r[2],
-                          .q0 = r[3],
-                          .q1 = r[4],
-                          .part = static_cast<int>(r[5]),
-                          .coarse = r[6] != 0,
-                          .pressure = r[7],
-                          .velocity = r[8],
-                          .direction = r[9],
-                          .contact_area = r[10],
-                          .hysteresis = r[11],
-                          .lateral = r[12],
-                          .rule_area = r[13],
-                          .rule_hysteresis = r[14],
-                          .error = r[15],
-                          .seconds = r[16],
-                          .points_y = static_cast<std::size_t>(r[17]),
-                          .points_x = static_cast<std::size_t>(r[18]),
-                          .contact_points = r[19],
-                          .interpolation = r[20],
-                          .pixels = r[21],
-                          .scan = r[22],
-                          .joining = r[23]};
+                          .strain = static_cast<std::uint64_t>(r[2]),
+                          .poisson_ratio = r[3],
+                          .q0 = r[4],
+                          .q1 = r[5],
+                          .part = static_cast<int>(r[6]),
+                          .coarse = r[7] != 0,
+                          .pressure = r[8],
+                          .velocity = r[9],
+                          .direction = r[10],
+                          .contact_area = r[11],
+                          .hysteresis = r[12],
+                          .lateral = r[13],
+                          .rule_area = r[14],
+                          .rule_hysteresis = r[15],
+                          .error = r[16],
+                          .seconds = r[17],
+                          .points_y = static_cast<std::size_t>(r[18]),
+                          .points_x = static_cast<std::size_t>(r[19]),
+                          .contact_points = r[20],
+                          .interpolation = r[21],
+                          .pixels = r[22],
+                          .scan = r[23],
+                          .joining = r[24]};
     scan.add({&c, 1});
   }
 }

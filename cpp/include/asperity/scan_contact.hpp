@@ -16,7 +16,7 @@ namespace asperity {
 
 /// A contact that was solved for a ScanContact, and what it is kept by.
 struct SolvedContact {
-  std::uint64_t rubber, heat;  // of what the modulus was, 0 without heat
+  std::uint64_t rubber, heat, strain;  // of what the modulus was; 0 without heat, without strain factors
   double poisson_ratio;
   double q0, q1;                      // of the filter [1/m]
   int part;                           // of the scan: -1 all of it, 0 to 3 its quarters

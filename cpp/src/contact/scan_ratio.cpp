@@ -81,11 +81,9 @@ Band common_band(const HeightMap& map, const Spectrum& spectrum) {
   return common;
 }
 
-/// A rubber with other factors of strain is another one.
-std::uint64_t fingerprint_of(const Rubber& rubber, const std::optional<StrainFactors>& strain) {
-  const std::uint64_t result = fingerprint(rubber);
-  if (!strain) return result;
-  std::vector<double> numbers{static_cast<double>(result), strain->strain_per_slope()};
+std::uint64_t fingerprint_of(const std::optional<StrainFactors>& strain) {
+  if (!strain) return 0;
+  std::vector<double> numbers{strain->strain_per_slope()};
   for (const std::vector<double>* row : {&strain->strain(), &strain->storage(), &strain->loss()})
     numbers.insert(numbers.end(), row->begin(), row->end());
   return fingerprint(numbers);
@@ -108,7 +106,7 @@ ScanRatios::ScanRatios(const ScanContact& scan, const Spectrum& spectrum, const 
       strain_(model.strain_factors),
       band_(common_band(scan.map(), spectrum)),
       spectrum_(*scan.scan().rings(band_)),
-      fingerprint_(fingerprint_of(rubber, strain_)) {
+      fingerprint_(fingerprint(rubber)) {
   const Spectrum& rings = *scan.scan().rings(band_);
   const auto [q0, q1] = band(rings);
   const double mine = slope_variance(rings, {q0, q1}), theirs = slope_variance(spectrum, {q0, q1});
@@ -129,7 +127,8 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
   constexpr std::size_t many = 8;
   const bool on_lattice = contact_.pressure_lattice() || std::set(pressure.begin(), pressure.end()).size() > many;
 
-  const ContactKey key{fingerprint_, 0, poisson_ratio_, band_, Scan::whole, false, 0, 0, direction_};
+  const ContactKey key{fingerprint_, 0, fingerprint_of(strain_), poisson_ratio_, band_, Scan::whole, false, 0, 0,
+                       direction_};
   const auto interpolated = [&](double p, double v) {
     const auto key_of = [&](int position) {
       ContactKey at = key;
@@ -194,8 +193,16 @@ ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule)
   const WaveModulus modulus{
       [&](double q, double w) { return q > 0 ? cold.at(q, w * std::exp(log_a_T(q))) : cold.at(0, w); }, true};
   const auto map = strain_ ? scan.part(band_, Scan::whole, false) : nullptr;
-  const ContactKey key{
-      fingerprint_, fingerprint(rule.a_T), poisson_ratio_, band_, Scan::whole, false, pressure, velocity, direction_};
+  const ContactKey key{fingerprint_,
+                       fingerprint(rule.a_T),
+                       fingerprint_of(strain_),
+                       poisson_ratio_,
+                       band_,
+                       Scan::whole,
+                       false,
+                       pressure,
+                       velocity,
+                       direction_};
   auto found = scan.contact(key);
   if (!found) {
     ContactProgress* const progress = ContactProgress::of(scan);

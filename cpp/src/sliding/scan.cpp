@@ -161,6 +161,7 @@ SolvedContact Scan::solve(const ContactKey& key, const WaveModulus& modulus) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   return {.rubber = key.rubber,
           .heat = key.heat,
+          .strain = key.strain,
           .poisson_ratio = key.poisson_ratio,
           .q0 = key.band.q0,
           .q1 = key.band.q1,
@@ -183,10 +184,17 @@ SolvedContact Scan::solve(const ContactKey& key, const WaveModulus& modulus) {
 
 void Scan::add(const SolvedContact& c) {
   const std::lock_guard lock(mutex_);
-  contacts_.insert_or_assign(
-      ContactKey{
-          c.rubber, c.heat, c.poisson_ratio, {c.q0, c.q1}, c.part, c.coarse, c.pressure, c.velocity, c.direction},
-      c);
+  contacts_.insert_or_assign(ContactKey{c.rubber,
+                                        c.heat,
+                                        c.strain,
+                                        c.poisson_ratio,
+                                        {c.q0, c.q1},
+                                        c.part,
+                                        c.coarse,
+                                        c.pressure,
+                                        c.velocity,
+                                        c.direction},
+                             c);
 }
 
 void Scan::add_errors(const ContactKey& key, const ContactErrors& errors) {

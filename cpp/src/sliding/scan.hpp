@@ -26,7 +26,7 @@ std::uint64_t fingerprint(std::span<const double> numbers);
 
 /// What a contact is kept by.
 struct ContactKey {
-  std::uint64_t rubber, heat;
+  std::uint64_t rubber, heat, strain;
   double poisson_ratio;
   Band band;
   int part;

@@ -165,8 +165,8 @@ _NEXT_STEPS = {
     "squashed-rubber": "check the units of pressure and moduli",
 }
 # mu of exact contacts of worn and peaked maps is 0.1 to 2.9 times that of their spectra
-# (docs/notes/sliding.md); half a decade of a_T has halved mu at 1 m/s (docs/howto/fatal_notes.md); a
-# doubled q1 beyond a slope of 1.3 raises that of the README's road by 0.4 to 0.7.
+# (docs/notes/sliding.md); half a decade of a_T has halved mu at 1 m/s (docs/howto/fatal_notes.md);
+# a doubled q1 beyond a slope of 1.3 raises that of the README's road by 0.4 to 0.7.
 _EFFECTS = {
     "heights-not-gaussian": 1.0,
     "gathered-waves": 0.4,

@@ -141,7 +141,14 @@ def test_exact_contacts_of_a_scan_soften_too():
         moduli=0.5 * SERIES.moduli,
         relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
     )
-    found, expected, plain = solved(SERIES, constant(0.5, 0.5)), solved(half), solved(SERIES)
+    both = asperity.ScanContact(scan, periodic=True, tolerance=0.1)
+    solved(SERIES, kind=both)
+    kept = len(both.contacts)
+    assert (both.contacts.to_dataframe()["strain"] == 0).all()
+    found, expected, plain = solved(SERIES, constant(0.5, 0.5), both), solved(half), solved(SERIES)
+    table = both.contacts.to_dataframe()  # of the same rubber, with and without
+    assert table["rubber"].nunique() == 1
+    assert (table["strain"] != 0).sum() == len(table) - kept > 0
     assert found.mu == pytest.approx(expected.mu, rel=1e-6)
     assert found.contact_area == pytest.approx(expected.contact_area, rel=1e-6)
     assert solved(SERIES, constant(1, 1)).mu == plain.mu
