@@ -154,6 +154,7 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
       if (!kinks_.empty())
         made.cut = std::make_unique<RoughnessPieces>(scene_.surface, level - 1, kinks_, harmonics_of(scene_.spectrum));
       options.pieces = made.cut ? made.cut.get() : &roughness_pieces(*table, level - 1);
+      options.rings = harmonics_of(scene_.spectrum);
     } else if (has_rows()) {
       options.halvings = level - (by_pieces ? 3 : 1);  // of some twice as many nodes as the last pieces
     }

@@ -434,3 +434,17 @@ def test_no_directions_are_refused():
     with pytest.raises(InvalidInput) as caught:
         asperity.friction(rows(0.4), RUBBER, pressure=1e5, velocity=0.1, direction=[])
     assert caught.value.argument == "direction"
+
+
+def test_a_table_is_heated_after_it_was_cold():
+    # what cold results keep with the rows must outlive the copy of the table that made it
+    def scan():
+        a = 0.2 + 0.1 * np.sin(np.log(Q))
+        return TabulatedSpectrum(wavenumber=Q, density=C, cosine=a[:, None], sine=0 * a[:, None])
+
+    used = scan()
+    for _ in range(3):
+        asperity.friction(used, RUBBER, **AT)
+    again = asperity.friction(used, RUBBER, **AT, **HEAT)
+    fresh = asperity.friction(scan(), RUBBER, **AT, **HEAT)
+    assert (again.mu, again.lateral) == (fresh.mu, fresh.lateral)

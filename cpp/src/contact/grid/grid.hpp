@@ -28,6 +28,7 @@ struct ContactGridOptions {
   bool edge_nodes = true;                          // for the stress that it carries beyond the end of the roughness
   std::optional<double> held_from = std::nullopt;  // where beyond it the modulus is not known any more [1/m]
   const RoughnessPieces* pieces = nullptr;         // instead of panels
+  const TabulatedSpectrum* rings = nullptr;        // with pieces, whose harmonics the nodes of q_m have
 };
 
 /// Nodes in ln q. The cells of the band are Gauss-Legendre panels in t = sqrt(ln(q / q0)), in which the square root

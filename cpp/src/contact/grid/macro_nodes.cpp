@@ -63,7 +63,7 @@ void ContactGrid::add_macro_nodes(std::span<const Segment> surface) {
       wavenumber_.push_back(std::exp((lower + upper + nodes.x[j] * (upper - lower)) / 2));
       macro_weights_.push_back(g_factor_ * nodes.weight[j]);
     }
-    if (!options_.pieces->directions()) continue;
+    if (!options_.rings) continue;
     for (double& at : x) at = std::exp((lower + upper + at * (upper - lower)) / 2);
     add_macro_harmonics(x, weight, nodes);
   }
@@ -72,7 +72,7 @@ void ContactGrid::add_macro_nodes(std::span<const Segment> surface) {
 /// Those with which the rule is exact for polynomials of ln q times the harmonics of the rings that it stands for.
 void ContactGrid::add_macro_harmonics(const std::vector<double>& wavenumber, const std::vector<double>& weight,
                                       const NodeRule& nodes) {
-  const TabulatedSpectrum& table = *options_.pieces->directions();
+  const TabulatedSpectrum& table = *options_.rings;
   const std::size_t count = table.harmonics().count, n = nodes.x.size(), first = wavenumber_.size() - n;
   std::vector<double> cosine(n * count), sine(n * count);
   for (std::size_t k = 0; k < wavenumber.size(); ++k) {

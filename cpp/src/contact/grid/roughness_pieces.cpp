@@ -102,6 +102,7 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
   take_differences();
   cells_ = RoughnessCells(12, 1, foot_, surface.back().b, nodes_.wavenumber);
   coarse_cells_ = RoughnessCells(4, 0.4, foot_, surface.back().b, nodes_.wavenumber);
+  directions_ = nullptr;
 }
 
 /// The sizes of five coefficients sum to 16, as those of equal steps do. The first of the nodes without weight is at

@@ -47,8 +47,6 @@ class RoughnessPieces {
   /// Shorter ones with fewer points, for functions with kinks.
   [[nodiscard]] const RoughnessCells& coarse_cells() const { return coarse_cells_; }
   [[nodiscard]] const RoughnessWindow& window() const { return window_; }
-  /// Whose harmonics the nodes have, or none.
-  [[nodiscard]] const TabulatedSpectrum* directions() const { return directions_; }
 
  private:
   /// A part of one segment, and int c dy and int c (y - lower) dy over it.
@@ -72,7 +70,7 @@ class RoughnessPieces {
   void take_differences();
 
   std::span<const Segment> surface_;
-  const TabulatedSpectrum* directions_;
+  const TabulatedSpectrum* directions_;  // for as long as the nodes are made: others share them
   RoughnessWindow window_;
   std::size_t level_;
   std::vector<double> start_, before_;  // of each segment: where it starts in y, and m there
