@@ -79,8 +79,8 @@ TEST_CASE("E' and E'' that contradict each other are found out") {
     CHECK(found.notes.size() == (found.causal ? 0 : 1));
     if (found.causal) continue;
     ++contradictions;
-    // a loss that is 1.2 times what it should be is no mistake of columns or units
-    const bool slight = combined(found) < 0.1;
+    // a loss that is 1.2 times what it should be leaves no more than published data do
+    const bool slight = row.text("case").starts_with("loss times 1.2");
     CHECK(found.notes[0].code == (slight ? "moduli-disagree" : "moduli-contradict"));
     CHECK(found.notes[0].severity == (slight ? Severity::warning : Severity::fatal));
     CHECK(combined(found) > 0.05);
@@ -90,6 +90,12 @@ TEST_CASE("E' and E'' that contradict each other are found out") {
   const PronyFit swapped = fit({m.w, m.loss, m.storage});
   CHECK_FALSE(swapped.causal);
   CHECK(swapped.notes.at(0).code == "moduli-contradict");
+  // E' that drifts against E'' over the decades, as vertical shifts not taken let it, is what published curves have
+  std::vector<double> drifted = m.storage;
+  for (std::size_t i = 0; i < drifted.size(); ++i) drifted[i] *= std::pow(m.w[i] / m.w.back(), 0.03);
+  const PronyFit drift = fit({m.w, drifted, m.loss});
+  CHECK(combined(drift) > 0.1);
+  CHECK(drift.notes.at(0).code == "moduli-disagree");
   // few modes are no contradiction
   CHECK(fit(m, {.modes_per_decade = 0.5}).causal);
   CHECK(combined(fit(m, {.modes_per_decade = 0.5})) > 0.1);
