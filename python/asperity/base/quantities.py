@@ -69,7 +69,8 @@ SPACING = Quantity(
     LENGTH_UNITS,
     likely=(1e-10, 1e-2),
     least=Limit(1e-12, "a hundredth of an atom"),
-    most=Limit(1.0, "texture that rubber feels is finer"),
+    high=Limit(0.1, "texture that rubber feels is finer; give the true one"),
+    most=Limit(1.0, "texture that rubber feels is finer; give the true one"),
 )
 PARTICLE = Quantity(
     LENGTH_UNITS,

@@ -56,7 +56,8 @@ def spectrum(args: Namespace) -> None:
             if q is not None:
                 plausible.check(flag, q, quantities.WAVENUMBER)
         result = _in_memory(path, args) if args.tiles is None else _by_tiles(path, args)
-    measured = result.spectrum
+        measured = result.spectrum
+        plausible.check("rms slope", measured.rms_slope, quantities.SLOPE, path=path)
     fit, fit_notes = _fit(measured, args)
     cutoff = measured.cutoff_for_slope(1.3)
     reached = cutoff < measured.q1

@@ -4,8 +4,10 @@ import re
 import warnings
 from functools import partial
 from importlib import import_module
+from io import BytesIO
 from pathlib import Path
 from typing import Any
+from zipfile import ZipFile, is_zipfile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +15,7 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal
 from asperity.base.extras import to_install
-from asperity.base.quantities import LENGTH_UNITS
+from asperity.base.quantities import LENGTH_UNITS, SPACING
 from asperity.io.archive import Archive
 from asperity.io.fields import rename_in_errors
 from asperity.surface import HeightMap, LineScan
@@ -32,10 +34,14 @@ class UnrecognisedError(InvalidInput):
 
 def checked_unit(unit: str) -> str:
     """The unit, micro signs (there are two) written as u."""
-    plain = re.sub("^[\u00b5\u03bc]m$", "um", unit) if isinstance(unit, str) else ""
+    plain = _plain(unit) if isinstance(unit, str) else ""
     if plain not in METRES:
         raise refusal("unit", unit, f"one of {', '.join(METRES)}")
     return plain
+
+
+def _plain(unit: str) -> str:
+    return re.sub("^[\u00b5\u03bc]m$", "um", unit)
 
 
 def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> HeightMap | LineScan:
@@ -91,7 +97,7 @@ def read_instrument(
             problem = f"needs SurfaceTopography: {to_install('io')}"
             raise UnrecognisedError(problem) from error
         try:
-            with open_topography(str(path)) as reader:
+            with open_topography(_as_iso_5436(path) or str(path)) as reader:
                 by_size = reader.format() == "hgt"  # which any file of 2 n^2 bytes seems to be
                 if not reader.channels or (by_size and path.suffix.lower() != ".hgt"):
                     raise UnrecognisedError("of no known format, or damaged")
@@ -104,6 +110,32 @@ def read_instrument(
             if type(error).__name__ in ("CannotDetectFileFormat", "UnknownFileFormat"):
                 raise UnrecognisedError("of no known format, or damaged") from error
             raise UnrecognisedError(f"damaged or not supported: {brief(error)}") from error
+
+
+def _as_iso_5436(path: Path) -> BytesIO | None:
+    """An .x3p archive with its main.xml outside of any folder and no empty offsets, where this one
+    differs; None of all other files. SurfaceTopography reads no other."""
+    if not is_zipfile(path):
+        return None
+    with path.open("rb") as file:
+        archive = Archive(file)
+        named = {one.filename: one for one in archive.members}
+        mains = [name for name in named if name.split("/")[-1] == "main.xml"]
+        main = min(mains, key=len, default="")
+        if not main:
+            return None
+        folder, copy = main.removesuffix("main.xml"), BytesIO()
+        text = archive.open(named[main]).read_all()
+        mended = re.sub(rb"<Offset\s*/>|<Offset>\s*</Offset>", b"<Offset>0</Offset>", text)
+        if not folder and mended == text:
+            return None
+        with ZipFile(copy, "w") as flat:
+            for name, one in named.items():
+                if name.startswith(folder):
+                    content = mended if name == main else archive.open(one).read_all()
+                    flat.writestr(name.removeprefix(folder), content)
+    copy.seek(0)
+    return copy
 
 
 def scans_of_container(path: Path) -> list[Any]:
@@ -161,16 +193,24 @@ def _read_channel(
         raise refusal("channel", channel, f"one of heights ({kinds})", text=f"{channel}")
     for name, argument, stated in (
         ("unit", unit, info.unit),
-        ("pixel_size", pixel_size, info.physical_sizes),
+        ("pixel_size", pixel_size, None if pixel_size and _coarse(info) else info.physical_sizes),
     ):
         if argument is None and stated is None:
             raise InvalidInput(Argument(name), " is missing: the file does not state it")
         if argument is not None and stated is not None:
             raise refusal(name, argument, "left out, the file states its own", text=f"{argument!r}")
 
-    sizes = {} if pixel_size is None else {"physical_sizes": info.nb_grid_pts}
+    unsized = info.physical_sizes is None  # SurfaceTopography wants some size
+    sizes = {"physical_sizes": info.nb_grid_pts} if unsized else {}
     topography = reader.topography(channel_index=channel, **sizes)
     return of_topography(topography, None if unit is None else METRES[unit], pixel_size)
+
+
+def _coarse(info: Any) -> bool:
+    """Whether a file states its points further apart than those of any scan are."""
+    metres = METRES.get(_plain(info.unit or ""), 1.0)
+    steps = metres * np.divide(info.physical_sizes or (0.0,), info.nb_grid_pts)
+    return SPACING.high is not None and float(np.max(steps)) > SPACING.high.value
 
 
 def of_topography(

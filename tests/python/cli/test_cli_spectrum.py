@@ -143,3 +143,14 @@ def test_noise_is_told_and_whether_the_scan_serves(
         assert f"from {found['reliable_from_per_m']:.3g} to {last:.3g} 1/m" in line
         assert ("ends flat" in said) == ("noise_from_per_m" in found) == (name == "noisy.npy")
         assert "only: mu would hang on" in line  # 0.9 and 0.7 decades
+
+
+def test_a_surface_as_flat_as_no_mirror_is_refused(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """As where a file states its micrometres to be metres."""
+    np.save("map.npy", SCAN.heights)
+    assert main(["spectrum", "map.npy", "--pixel-size", "0.3", "--unit", "m"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert "rms slope = " in line
+    assert "pixel_size = 0.3: unusual" in line

@@ -1,6 +1,7 @@
 """Files in: matrices, instrument formats, and what is refused in one line."""
 
 import warnings
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -97,3 +98,44 @@ def test_a_signalling_nan_is_a_dropout_like_others(
     road = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=2e3, q1=1e5)
     with pytest.raises(InvalidInput, match=r"^wavenumber = nan"):
         road.line_density(heights[3, 3:4])
+
+
+AXIS = "<C{0}><AxisType>{1}</AxisType><DataType>D</DataType><Increment>{2}</Increment>{3}</C{0}>"
+OFFSET = "<Offset>0</Offset>"
+
+
+@pytest.mark.parametrize(("folder", "offset"), [("", OFFSET), ("scan/", OFFSET), ("", "<Offset/>")])
+def test_x3p_with_its_files_in_a_folder_or_an_empty_offset(
+    tmp_path: Path, folder: str, offset: str
+) -> None:
+    """As file managers pack them, and R's x3ptools write them."""
+    pytest.importorskip("SurfaceTopography")
+    heights = np.arange(12.0).reshape(3, 4) * 1e-7
+    axes = AXIS.format("X", "I", 2e-6, OFFSET) + AXIS.format("Y", "I", 2e-6, OFFSET)
+    axes += AXIS.format("Z", "A", 1, offset)
+    size = "<SizeX>4</SizeX><SizeY>3</SizeY><SizeZ>1</SizeZ>"
+    kind = "<Revision>ISO5436 - 2000</Revision><FeatureType>SUR</FeatureType>"
+    main = (
+        f"<ISO5436><Record1>{kind}<Axes>{axes}</Axes></Record1><Record3>"
+        f"<MatrixDimension>{size}</MatrixDimension><DataLink><PointDataLink>bindata/data.bin"
+        "</PointDataLink></DataLink></Record3></ISO5436>"
+    )
+    with zipfile.ZipFile(tmp_path / "scan.x3p", "w") as archive:
+        archive.writestr("__MACOSX/._scan", b"any")
+        archive.writestr(f"{folder}main.xml", main)
+        archive.writestr(f"{folder}bindata/data.bin", heights.tobytes())
+    surface = read_surface(tmp_path / "scan.x3p")
+    np.testing.assert_array_equal(np.sort(surface.heights, axis=None), heights.ravel())
+    assert surface.pixel_size == (2e-6, 2e-6)
+
+
+def test_a_pixel_that_no_scan_has_may_be_given(tmp_path: Path) -> None:
+    """A file in micrometres whose program stated them as metres."""
+    pytest.importorskip("SurfaceTopography")
+    path = tmp_path / "scan.asc"
+    text = "# Channel: Main\n# Width: 8 m\n# Height: 8 m\n# Value units: nm\n1 2\n4 5\n"
+    path.write_text(text, encoding="utf-8")
+    assert read_surface(path).pixel_size == pytest.approx((4.0, 4.0))
+    surface = read_surface(path, pixel_size=4e-6)
+    assert surface.pixel_size == (4e-6, 4e-6)
+    np.testing.assert_allclose(np.sort(surface.heights, axis=None), np.array([1, 2, 4, 5]) * 1e-9)
