@@ -89,7 +89,12 @@ def spectrum(args: Namespace) -> None:
     floor = scan.noise_floor(measured) if of_map else None
     if floor is not None:
         numbers["noise_from_per_m"] = floor
-    notes = [*unusual, *fit_notes, *result.notes, *(scan.line_notes(measured) if of_map else ())]
+    notes = [
+        *unusual,
+        *fit_notes,
+        *result.notes,
+        *(scan.line_notes(measured, numbers["slope_cutoff_1.3_per_m"]) if of_map else ()),
+    ]
     if not reached:
         text = (
             "slope_cutoff = 1.3 ends nothing here: the rms slope up to pi / pixel, "

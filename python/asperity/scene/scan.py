@@ -141,8 +141,9 @@ def _worn_notes(scan: LineScan) -> list[Note]:
     return [Note(text, code="worn-line-scan", next_step=step)]
 
 
-def line_notes(spectrum: TabulatedSpectrum) -> list[Note]:
-    """What there is to say of lines of a spectrum, as grooves at equal distances have them."""
+def line_notes(spectrum: TabulatedSpectrum, cut: float | None = None) -> list[Note]:
+    """What there is to say of lines of a spectrum, as grooves at equal distances have them; `cut`
+    is the wavenumber [1/m] where a rule on the slope ends it."""
     whole = spectrum.wavenumber <= spectrum.q1
     q, density = spectrum.wavenumber[whole], spectrum.density[whole]
     if density.size < 2 * _BESIDE + 1:
@@ -162,7 +163,24 @@ def line_notes(spectrum: TabulatedSpectrum) -> list[Note]:
         "roughness may not hold on it"
     )
     step = 'take the scan itself, kind = "scan-contact", and slide across and along'
+    if cut is not None and (sides := _line_at(q, times, cut)) is not None:
+        low, high = sides
+        text += f"; the slope ends it at {cut:.4g} 1/m, in a line: mu hangs on which side it falls"
+        step += f"; or end beside the line, q1_per_m = {low:.4g} or {high:.4g}, and state both"
     return [Note(text, code="lines-in-spectrum", next_step=step)]
+
+
+def _line_at(
+    q: NDArray[np.float64], times: NDArray[np.float64], cut: float
+) -> tuple[float, float] | None:
+    """The sound rows at both sides of lines [1/m] that are cut, if they are."""
+    lines = np.pad(times > _LINE, _BESIDE)
+    reached = lines | np.roll(lines, 1) | np.roll(lines, -1)  # C(q) is straight between rows
+    below, above = np.flatnonzero(~reached & (q <= cut)), np.flatnonzero(~reached & (q >= cut))
+    at = int(np.searchsorted(q, cut))
+    if not below.size or not above.size or not reached[max(at - 1, 0) : at + 1].all():
+        return None
+    return float(q[below[-1]]), float(q[above[0]])
 
 
 def trusted(spectrum: TabulatedSpectrum) -> Sequence[float] | None:

@@ -167,7 +167,8 @@ def build_surface(path: Path, table: object, read: Read | None = None) -> Surfac
         notes += scan_notes(scan, lay, directional=directional)
         if lay is not None and lay.ratio > LAY:
             derived |= {"slope_anisotropy": lay.ratio, "lay_deg": lay.degrees}
-        notes += line_notes(measured) if isinstance(scan, HeightMap) else []
+        if isinstance(scan, HeightMap):
+            notes += line_notes(measured, spectrum.q1 if "slope_cutoff" in values else None)
         notes += _noise_notes(floor, spectrum)
     drawn = drawn_spectrum(spectrum)
     if fit is not None:

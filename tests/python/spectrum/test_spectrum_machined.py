@@ -39,6 +39,19 @@ def test_grooves_are_noted_with_their_distance(period: float) -> None:
     assert np.abs(1 / wave - orders).min() < 1 / (200 * PIXEL)  # a ring
 
 
+def test_a_slope_that_ends_the_spectrum_in_a_line_is_noted() -> None:
+    """The slope jumps by a third within the line, so a rule on it ends there for many slopes."""
+    heights = rough(1) + 1.5e-6 * np.sin(2 * np.pi * np.arange(196) / 12.7)
+    spectrum = asperity.power_spectrum(asperity.HeightMap(heights, pixel_size=PIXEL))
+    line = 2 * np.pi / (12.7 * PIXEL)
+    for share, inside in ((0.7, False), (1.0, True), (1.3, False)):
+        slope = spectrum.truncated(q1=share * line).rms_slope
+        cut = spectrum.cutoff_for_slope(slope)
+        (note,) = line_notes(spectrum, cut)
+        assert ("in a line" in note) == inside
+        assert ("q1_per_m" in note.next_step) == inside
+
+
 @pytest.mark.parametrize("kind", ["partial-contact", "scan-contact"])
 def test_the_contact_of_the_scan_knows_its_grooves(tmp_path: Path, kind: str) -> None:
     np.save(tmp_path / "scan.npy", rough(1) + 2e-6 * np.abs(np.sin(np.pi * np.arange(196) / 8.3)))
