@@ -77,9 +77,10 @@ def sentence_on(
     which = "left out of the fit one at a time, " if fitted else ""
     numbers = "one number of it was" if fitted == 1 else f"{fitted} numbers of it were"
     how = f"{numbers if fitted else 'nothing was'} fitted to them"
+    alone = "" if "adhesion" in found.tables else ", hysteresis alone without an [adhesion],"
     of_points = "without" if scatter is None else f"with {_share(scatter)} for"
     return (
-        f"Of {size} measured friction coefficients, {which}the scene predicts each to "
+        f"Of {size} measured friction coefficients, {which}the scene{alone} predicts each to "
         f"{_share(rms_left_out)} rms; the same mu everywhere would be off by "
         f"{_share(rms_same_mu)}; {how}. {inside} of {size} lie within the 95 % interval of its "
         f"stated errors ({', '.join(shown)}), {of_points} their own scatter."

@@ -20,6 +20,7 @@ from asperity.scene.known import KEYS
 _KEY = re.compile(r"(\w+)\.(\w+)(?:\[(\d+)\])?")
 _MEASURED = ("conditions.pressure_pa", "conditions.velocity_m_s")
 _NOT_PHYSICAL = ("solver", "uncertainty")
+_ADDED = ("surface.q1_per_m", "adhesion.shear_stress_pa")  # to a scene that does not name them
 _CUTOFFS = {"file", "contamination_size_m", "slope_cutoff"}  # with which q1 follows from others
 _OF_LAW = ("rms_height", "hurst", "q0", "q1", "rolloff")
 _OF_SERIES = ("equilibrium_modulus", "moduli", "relaxation_times")
@@ -160,9 +161,30 @@ def _start(
         raise InvalidInput(about, ": is no list in ", f"{path}")
     if given is None:
         given = field.default if prior is None else prior.value
-    if isinstance(given, bool) or not isinstance(given, int | float) or field.read is count:
-        raise InvalidInput(about, MUST_BE, f"a number that {path} has, from which to start")
+    if isinstance(given, list) or not _is_number(given) or field.read is count:
+        raise InvalidInput(
+            about, MUST_BE, f"a number that {path} has, from which to start; ", _free(tables)
+        )
     return float(given)
+
+
+def _free(tables: Mapping[str, Any]) -> str:
+    """What can be freed in a scene, as it is and with a line more."""
+    numbers = [
+        f"{table}.{name}" + ("[0]" if isinstance(value, list) else "")
+        for table, field_of in tables.items()
+        if table not in _NOT_PHYSICAL
+        for name, value in field_of.items()
+        if f"{table}.{name}" not in _MEASURED and _is_number(value)
+    ]
+    more = [key for key in _ADDED if key not in numbers]
+    has = f"it has {', '.join(numbers)}" if numbers else "it has none"
+    return f"{has}; {' and '.join(more)} can be added to it" if more else has
+
+
+def _is_number(value: Any) -> bool:
+    first = value[0] if isinstance(value, list) and value else value
+    return isinstance(first, int | float) and not isinstance(first, bool)
 
 
 def _prior(key: str, given: Any) -> Prior:

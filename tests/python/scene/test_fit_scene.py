@@ -213,7 +213,10 @@ def test_a_number_drawn_beyond_its_end_is_refused(scene, key, end):
         ({"free": ["rubber.moduli_pa[7]"]}, "one of the 3"),
         ({"free": ["surface.hurst[0]"]}, "is no list"),
         ({"free": ["conditions.velocity_m_s"]}, "the points have their own"),
-        ({"free": ["surface.rolloff_per_m"]}, "a number that .* has"),
+        (
+            {"free": ["surface.rolloff_per_m"]},
+            r"has surface\.rms_height_m, .*rubber\.moduli_pa\[0\], .*adhesion\.shear_stress_pa$",
+        ),
         ({"free": "surface.hurst"}, "a list of keys"),
         ({"free": ["surface.hurst"] * 2}, "without repeats"),
         ({"free": ["surface.hurst"], "priors": {"surface.q1_per_m": (1, 1)}}, "one of free"),
@@ -235,6 +238,15 @@ def test_bad_points_are_named(scene, change, text):
     measured = {name: x for name, x in {**points(scene), **change}.items() if x is not None}
     with pytest.raises(InvalidInput, match=text):
         fit_scene(scene(), measured)
+
+
+def test_a_scene_without_adhesion_says_so(scene):
+    path = scene(**TRUTH)
+    assert "hysteresis alone" not in fit_scene(path, points(scene)).sentence
+    path.write_text(path.read_text().partition("[adhesion]")[0])
+    assert "hysteresis alone" in fit_scene(path, points(scene)).sentence
+    with pytest.raises(InvalidInput, match=r"adhesion\.shear_stress_pa can be added"):
+        fit_scene(path, points(scene), free=["adhesion.shear_stress_pa"])
 
 
 def test_a_comparison_has_three_errors(scene):
