@@ -28,7 +28,7 @@ from asperity.scene.scene import read_toml
 from asperity.sweep import run
 from asperity.sweep.executors import Executor, local_cluster
 from asperity.sweep.existing import open_store
-from asperity.sweep.look import choose, notes_of, ranks
+from asperity.sweep.look import choose, notes_of, ranks, with_scenes
 from asperity.sweep.plan import cut_of
 from asperity.sweep.timing import estimated, timed
 
@@ -149,15 +149,15 @@ def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
 
 def _look(args: Namespace, dataset: Any) -> None:
     """Draw and rank what is asked for, where --at says."""
-    part = choose(dataset, args.at)
+    part = choose(with_scenes(dataset), args.at)
     if args.plot is not None:
         picture = FilePath(args.plot)
         name = (args.variables or "mu").split(",")[0]
-        with drawn_in(args.style, notes_of(dataset)):
+        with drawn_in(args.style, notes_of(part)):
             write_whole(picture, sweep_figure(part, picture, name))
     if args.rank is not None:
         columns = ranks(part, args.rank)
-        fatal = [note for note in notes_of(dataset) if note.severity == FATAL]
+        fatal = [note for note in notes_of(part) if note.severity == FATAL]
         at = {f"at {name}": one for name, one in args.at.items()}
         inputs = [{"axis": args.rank, **at, "fatal_notes": len(fatal)}]
         notes = [*fatal, *map(Note, _RANK_NOTES)]

@@ -37,6 +37,7 @@ class Described:
         self.inputs = plan.inputs
         self.notes = plan.notes
         self.dimensions = tuple(axis.name for axis in plan.axes)
+        self._scene_axes = [self.dimensions[i] for i in plan.task.fixed]
         self.coordinates: dict[str, Coordinate] = {}
         for axis in plan.axes:
             self.coordinates |= _coordinates(axis)
@@ -56,6 +57,7 @@ class Described:
             "source": f"asperity {__version__}",
             "versions": json.dumps({"asperity": __version__, **versions}),
             "sweep": self._inputs,
+            "scene_axes": json.dumps(self._scene_axes),
         }
 
     def dataset(self, values: Mapping[str, Any], failure: Any, tally: Any) -> Any:

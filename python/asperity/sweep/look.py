@@ -1,5 +1,6 @@
 """What a store says: parts of it that are chosen, and ranks with the certainty that they have."""
 
+import json
 import math
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -12,6 +13,7 @@ from asperity.base.diagnostics import Argument, Must, Note, refusal, valued
 from asperity.io.fields import nearest
 
 _BLOCK = 1_000_000  # numbers of a variable that are looked at together
+_SCENE = "_scene"
 _AGREE = 1e-6  # relative, of a number that was typed and a coordinate
 
 
@@ -47,11 +49,27 @@ def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
     raise InvalidInput(*about, f": is not on the axis, which has {allowed}")
 
 
+def with_scenes(dataset: Any) -> Any:
+    """The dataset with the number of the scene of each point, by which notes know theirs."""
+    names = json.loads(dataset.attrs["scene_axes"])
+    sizes = [dataset.sizes[name] for name in names]
+    return dataset.assign({_SCENE: (names, np.arange(math.prod(sizes)).reshape(sizes))})
+
+
 def notes_of(dataset: Any) -> list[Note]:
-    """The notes of a sweep, of the texts, labels and next steps that its store has."""
-    columns = (str(dataset.attrs[name]) for name in ("note_labels", "notes", "note_steps"))
+    """The notes of a sweep, or of what was chosen of one `with_scenes`."""
+    columns = (str(dataset.attrs[f"note{name}"]) for name in ("_scenes", "_labels", "s", "_steps"))
     rows = zip(*(column.split("\n") for column in columns), strict=True)
-    return [Note.of_label(*row) for row in rows if row[0]]
+    here = np.unique(dataset[_SCENE]) if _SCENE in dataset else None
+    return [Note.of_label(*row) for runs, *row in rows if row[0] and _in_runs(runs, here)]
+
+
+def _in_runs(runs: str, scenes: NDArray[np.int64] | None) -> bool:
+    """Whether one of the rising numbers is in a run; -1 stands for all of them."""
+    if scenes is None or runs.startswith("-1"):
+        return True
+    ends = np.array([[int(end) for end in run.split(":")] for run in runs.split()])
+    return bool((np.diff(np.searchsorted(scenes, ends + np.array([0, 1]))) > 0).any())
 
 
 def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:

@@ -2,6 +2,7 @@
 
 import hashlib
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -27,7 +28,7 @@ class Outcome:
     refused: int = 0  # scenes that could not be built of such values
     messages: dict[int, str] = field(default_factory=dict)
     kinds: dict[str, int] = field(default_factory=dict)  # failed points by kind of error
-    notes: dict[Note, int] = field(default_factory=dict)  # with the first scene that has it
+    notes: dict[Note, list[int]] = field(default_factory=dict)  # with the scenes that have it
     seconds: float = 0.0  # of the processor: what else the machine does cuts no tasks
 
     @property
@@ -44,6 +45,13 @@ class Outcome:
             self.values[name] = np.full(self.box, np.nan)
         numbers: Numbers = self.values[name]
         return numbers
+
+    def note(self, notes: Iterable[Note], scene: int) -> None:
+        """Keep notes of a scene, which come in their order."""
+        for note in notes:
+            scenes = self.notes.setdefault(note, [])
+            if scene not in scenes[-1:]:
+                scenes.append(scene)
 
     def fail(self, where: Any, error: Error) -> None:
         """Note why there is nothing at `where`, an index of the box; what failed before stays."""

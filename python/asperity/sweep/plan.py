@@ -254,8 +254,7 @@ def cut_of(plan: Plan, cost: Cost) -> tuple[int, ...]:
     """
     task = plan.task
     moved = task.moved
-    fixed = [i for i in range(len(task.axes)) if i not in moved]
-    fixed.sort(key=lambda i: (cost.change.get(i, cost.scene), -i))
+    fixed = sorted(task.fixed, key=lambda i: (cost.change.get(i, cost.scene), -i))
     cut = [1] * len(task.shape)
     for i in moved[::-1]:
         size = task.shape[i]

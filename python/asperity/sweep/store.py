@@ -113,7 +113,9 @@ class ZarrStore:
             box = tuple(min(c, size - s) for s, c, size in along)
             outcome = Outcome(start, box, sums=list(entry["sums"]))
             outcome.kinds = {str(kind): int(n) for kind, n in entry["kinds"].items()}
-            outcome.notes = {Note.of_line(line): int(n) for line, n in entry["notes"].items()}
+            outcome.notes = {
+                Note.of_line(line): [*map(int, n)] for line, n in entry["notes"].items()
+            }
             outcome.messages = {int(code): str(one) for code, one in entry["messages"].items()}
         except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
             return None

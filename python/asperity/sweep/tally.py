@@ -18,11 +18,11 @@ class Tally:
     points: int = 0
     kinds: dict[str, int] = field(default_factory=dict)
     messages: dict[int, str] = field(default_factory=dict)
-    notes: dict[Note, int] = field(default_factory=dict)
+    notes: dict[Note, list[int]] = field(default_factory=dict)
 
     @classmethod
     def of(cls, described: Described) -> "Tally":
-        return cls(notes=dict.fromkeys(described.notes, -1))
+        return cls(notes={note: [-1] for note in described.notes})
 
     def add(self, outcome: Outcome) -> None:
         self.points += outcome.points
@@ -30,21 +30,30 @@ class Tally:
             self.kinds[kind] = self.kinds.get(kind, 0) + count
         for code, message in outcome.messages.items():
             keep_message(self.messages, code, message)
-        for note, scene in outcome.notes.items():
-            self.notes[note] = min(scene, self.notes.get(note, scene))
+        for note, scenes in outcome.notes.items():
+            self.notes.setdefault(note, []).extend(scenes)
 
     @property
     def failed(self) -> int:
         return sum(self.kinds.values())
 
     def attributes(self) -> dict[str, Any]:
-        notes = fatal_first(sorted(self.notes, key=lambda note: (self.notes[note], note)))
+        notes = fatal_first(sorted(self.notes, key=lambda note: (min(self.notes[note]), note)))
         texts: dict[str, Iterable[str]] = {
             "notes": notes,
             "note_labels": [note.label for note in notes],
             "note_steps": [note.next_step for note in notes],
+            "note_scenes": [_runs(self.notes[note]) for note in notes],
         }
         return {**{name: "\n".join(of) for name, of in texts.items()}, "failed": self.failed}
+
+
+def _runs(scenes: Iterable[int]) -> str:
+    """Numbers of scenes as runs, from:to from:to, of which -1 is all of them."""
+    numbers = np.unique(np.fromiter(scenes, np.int64))
+    ends = np.flatnonzero(np.diff(numbers) > 1)
+    first, last = numbers[np.append(0, ends + 1)], numbers[np.append(ends, numbers.size - 1)]
+    return " ".join(f"{a}:{b}" for a, b in zip(first, last, strict=True))
 
 
 class Memory:

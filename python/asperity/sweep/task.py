@@ -61,6 +61,11 @@ class Task:
         return self.has_heat or self.wants_band
 
     @property
+    def fixed(self) -> list[int]:
+        """Axes whose values make another scene each; scenes are numbered along them."""
+        return [i for i in range(len(self.axes)) if i not in self.moved]
+
+    @property
     def moved(self) -> list[int]:
         """Axes that move points of a scene, which one call computes together.
 
@@ -81,8 +86,7 @@ def compute(task: Task) -> Outcome:
     began = time.thread_time()
     box = task.box
     outcome = Outcome(task.start, box)
-    moved = task.moved
-    fixed = [i for i in range(len(box)) if i not in moved]
+    moved, fixed = task.moved, task.fixed
     whole = tuple(task.shape[i] for i in fixed)
     for place in itertools.product(*(range(box[i]) for i in fixed)):
         at: list[Any] = [slice(None)] * len(box)
@@ -135,9 +139,8 @@ def _compute_scene(
                 where[i] = int(index)
             outcome.fail(tuple(where), result)
             continue
-        for note in result.notes:
-            if note.code != "small-friction":  # on all points of a scene, of which this has some
-                outcome.notes[note] = min(number, outcome.notes.get(note, number))
+        # "small-friction" is on all points of a scene, of which this has some
+        outcome.note((one for one in result.notes if one.code != "small-friction"), number)
         for name in task.variables:
             if name not in BAND:
                 _put(outcome, name, at, shape, part, _column(result, name))
@@ -208,8 +211,7 @@ def _scene(
         with suppress(InvalidInput):  # of some of the points, which fail on their own
             name = "[conditions] pressure_pa"
             plausible.check_load(name, highest, stiffest(scene.rubber), path=path)
-    for note in (*notes, *scene.notes):
-        outcome.notes[note] = min(number, outcome.notes.get(note, number))
+    outcome.note((*notes, *scene.notes), number)
     return scene
 
 
@@ -268,8 +270,7 @@ def _band(
                 outcome.fail(_place_of(at, place, np.shape(mu)), error)
             continue
         shares[(slice(None), *part)] = bounds.lower, bounds.upper
-        for note in bounds.notes:
-            outcome.notes[note] = min(number, outcome.notes.get(note, number))
+        outcome.note(bounds.notes, number)
     for name, share in zip(BAND, shares, strict=True):
         factor = share.T if turned else share
         outcome.array(name)[at] = mu * factor.reshape(np.shape(mu))

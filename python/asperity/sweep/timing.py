@@ -47,7 +47,7 @@ def timed(plan: Plan, executor: Executor) -> Cost:
         outcome: Outcome = result_of(executor.submit(compute, replace(part, shape=part.box)))
         return outcome
 
-    fixed = [i for i in range(len(task.axes)) if i not in moved]
+    fixed = task.fixed
     refusal: str | None = None
     for count, place in enumerate(itertools.product(*(range(task.shape[i]) for i in fixed))):
         if count == _MOST_TRIED:

@@ -10,7 +10,7 @@ import asperity
 from asperity.cli.main import main
 from asperity.plot import sweep as plot
 from asperity.sweep import look
-from asperity.sweep.look import choose, ranks
+from asperity.sweep.look import choose, notes_of, ranks, with_scenes
 from helpers.cases import case
 from helpers.sweeps import SCENE
 
@@ -32,6 +32,14 @@ def stored(tmp_path_factory):
     path = tmp_path_factory.mktemp("stored") / "r.zarr"
     asperity.sweep(SCENE, OVER, store=path).close()
     return path
+
+
+def test_notes_are_those_of_what_was_chosen(swept):
+    whole = {note.code for note in notes_of(swept)}
+    assert "no-correction" in whole
+    for kind, noted in (("none", True), ("partial-contact", False)):
+        part = choose(with_scenes(swept), {"correction.kind": kind, "surface.hurst": "0.8"})
+        assert ("no-correction" in {note.code for note in notes_of(part)}) == noted
 
 
 @pytest.fixture
