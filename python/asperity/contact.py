@@ -1,6 +1,8 @@
 """Real contact area and contact pressure at every magnification (Eqs 1-8, Section 6.1)."""
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -8,14 +10,7 @@ from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import (
-    broadcast,
-    choice,
-    number,
-    number_or_none,
-    real_array,
-    shaped,
-)
+from asperity.base.arguments import Shape, choice, number, number_or_none, real_array, shaped
 from asperity.base.diagnostics import MUST_BE, Argument, Must, Note, fatal_first, refusal
 from asperity.base.quantities import (
     FIRST_WAVENUMBER,
@@ -29,6 +24,7 @@ from asperity.base.quantities import (
 from asperity.correction import CORRECTIONS, Correction
 from asperity.dma import AnyRubber, rubber_of
 from asperity.io.plausible import implausible
+from asperity.results.directions import along_x_notes, once, toward_each
 from asperity.rubber import Rubber, stiffest
 from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.spectrum import Spectrum
@@ -91,7 +87,7 @@ def contact_area(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
-    direction: float = 0.0,
+    direction: ArrayLike = 0.0,
 ) -> Any:
     """Return the real over the nominal contact area, A/A0 [-].
 
@@ -121,13 +117,13 @@ def contact_area(
         by hundreds of times; not with PartialContact or ScanContact.
     strain_factors : StrainFactors, optional
         The modulus at the strain of each magnification; by default that of small strain.
-    direction : float
-        Of sliding [rad], as in `friction`, over a spectrum that knows directions.
+    direction : array_like
+        Of sliding [rad], as in `friction`; broadcasts with pressure and velocity.
 
     Returns
     -------
     float or ndarray
-        In the broadcast shape of pressure and velocity, then wavenumber.
+        In the broadcast shape of pressure, velocity and direction, then wavenumber.
 
     Raises
     ------
@@ -136,9 +132,10 @@ def contact_area(
         v q0 or v q1 outside of a measured master curve, wavenumber outside of the band.
     NotConverged
     """
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
+    model = partial(contact_model, poisson_ratio, correction, form, rtol, method, strain_factors)
+    points = {"pressure": pressure, "velocity": velocity}
     return _over_wavenumber(
-        _core.contact_area, spectrum, rubber, pressure, velocity, model, wavenumber
+        _core.contact_area, spectrum, rubber, points, model, direction, wavenumber
     )
 
 
@@ -155,16 +152,17 @@ def mean_pressure(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
-    direction: float = 0.0,
+    direction: ArrayLike = 0.0,
 ) -> Any:
     """Return the mean contact pressure <sigma> = sigma0 A0 / A [Pa] (Eq. 1) at a magnification.
 
     It is infinite where there is no contact. Arguments, shape and errors are those of
     `contact_area`.
     """
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
+    model = partial(contact_model, poisson_ratio, correction, form, rtol, method, strain_factors)
+    points = {"pressure": pressure, "velocity": velocity}
     return _over_wavenumber(
-        _core.mean_pressure, spectrum, rubber, pressure, velocity, model, wavenumber
+        _core.mean_pressure, spectrum, rubber, points, model, direction, wavenumber
     )
 
 
@@ -181,7 +179,7 @@ def correction_factor(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
-    direction: float = 0.0,
+    direction: ArrayLike = 0.0,
 ) -> Any:
     """Return the correction factor CF of Section 6.1 [-].
 
@@ -189,9 +187,10 @@ def correction_factor(
     friction PF-CF = S A / A0 with the uncorrected A. It is what the integrand of Eq. 22 is weighted
     with, 1 in full contact. Arguments, shape and errors are those of `contact_area`.
     """
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
+    model = partial(contact_model, poisson_ratio, correction, form, rtol, method, strain_factors)
+    points = {"pressure": pressure, "velocity": velocity}
     return _over_wavenumber(
-        _core.correction_factor, spectrum, rubber, pressure, velocity, model, wavenumber
+        _core.correction_factor, spectrum, rubber, points, model, direction, wavenumber
     )
 
 
@@ -207,19 +206,24 @@ def contact_notes(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
-    direction: float = 0.0,
+    direction: ArrayLike = 0.0,
 ) -> tuple[Note, ...]:
     """Return the notes of the rubber, and where the theory or its input leaves its range.
 
     They are those that `friction` returns as notes, for who asks for the contact area alone.
     Arguments are those of `contact_area`.
     """
-    _, (p, v) = broadcast(pressure=pressure, velocity=velocity)
-    model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, direction)
+    model = partial(contact_model, poisson_ratio, correction, form, rtol, method, strain_factors)
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
-    notes = _core.contact_notes(surface._core, solid._core, model, p, v)
+    points = {"pressure": pressure, "velocity": velocity}
+    notes = [
+        note
+        for angle, _, place in toward_each(direction, points)[1]
+        for note in _core.contact_notes(surface._core, solid._core, model(angle), *place.values())
+    ]
     absurd = implausible_notes(surface, solid, pressure, velocity)
-    return tuple(fatal_first((*solid.notes, *absurd, *notes)))
+    along_x = along_x_notes(surface, direction)
+    return tuple(fatal_first(once((*solid.notes, *absurd, *along_x, *notes))))
 
 
 def pressure_distribution(
@@ -235,7 +239,7 @@ def pressure_distribution(
     rtol: float = 1e-6,
     method: Method = "gauss",
     strain_factors: StrainFactors | None = None,
-    direction: float = 0.0,
+    direction: ArrayLike = 0.0,
 ) -> Any:
     """Return the probability density P(sigma) of the contact pressure [1/Pa] (Eq. 4 solved).
 
@@ -255,30 +259,27 @@ def pressure_distribution(
     Returns
     -------
     float or ndarray
-        In the broadcast shape of stress, pressure and velocity.
+        In the broadcast shape of stress, pressure, velocity and direction.
     """
-    shape, (sigma, p, v) = broadcast(stress=stress, pressure=pressure, velocity=velocity)
-    model = contact_model(
-        poisson_ratio, correction, "exact", rtol, method, strain_factors, direction
-    )
-    parts = surface_and_rubber(spectrum, rubber)
+    model = partial(contact_model, poisson_ratio, correction, "exact", rtol, method, strain_factors)
+    points = {"stress": stress, "pressure": pressure, "velocity": velocity}
     q = number_or_none(wavenumber, "wavenumber")
     q = spectrum_of(spectrum).q1 if q is None else q
-    return shaped(_core.pressure_distribution(*parts, model, sigma, p, v, q), shape)
+    return _at_points(_core.pressure_distribution, spectrum, rubber, points, model, direction, q)
 
 
 def _over_wavenumber(
     function: Callable[..., Any],
     spectrum: AnySpectrum,
     rubber: AnyRubber,
-    pressure: ArrayLike,
-    velocity: ArrayLike,
-    model: Any,
+    points: Mapping[str, ArrayLike],
+    model: Callable[[float], Any],
+    direction: ArrayLike,
     wavenumber: ArrayLike | None,
 ) -> Any:
-    """Return a function of pressure and velocity, and of wavenumber as last axis."""
-    shape, (p, v) = broadcast(pressure=pressure, velocity=velocity)
+    """Return a function of points and directions, and of wavenumber as last axis."""
     q = np.empty(0)
+    more: Shape = ()
     if wavenumber is not None:
         q = real_array(wavenumber, "wavenumber")
         if q.ndim > 1:
@@ -287,8 +288,28 @@ def _over_wavenumber(
             )
         if not q.size:
             raise InvalidInput(Argument("wavenumber"), " has 0 entries", MUST_BE, "1 or more")
-        shape += q.shape
-    return shaped(function(*surface_and_rubber(spectrum, rubber), model, p, v, q), shape)
+        more = q.shape
+    return _at_points(function, spectrum, rubber, points, model, direction, q, more)
+
+
+def _at_points(
+    function: Callable[..., Any],
+    spectrum: AnySpectrum,
+    rubber: AnyRubber,
+    points: Mapping[str, ArrayLike],
+    model: Callable[[float], Any],
+    direction: ArrayLike,
+    wavenumber: Any,
+    more: Shape = (),
+) -> Any:
+    """Return what the core gives, of each direction at a time, in the shape of all and `more`."""
+    parts = surface_and_rubber(spectrum, rubber)
+    shape, each = toward_each(direction, points)
+    found = np.empty((math.prod(shape), *more))
+    for angle, where, place in each:
+        rows = function(*parts, model(angle), *place.values(), wavenumber)
+        found[where] = rows.reshape(-1, *more)
+    return shaped(found, (*shape, *more))
 
 
 def implausible_notes(

@@ -18,6 +18,7 @@ from asperity.base.arguments import (
     frozen,
     number,
     of_kind,
+    real_array,
     whole,
 )
 from asperity.base.diagnostics import Argument, Note, fatal_first, valued
@@ -62,7 +63,7 @@ def friction(
     heating: Heating | None = None,
     branch: Branch = "cold",
     gradients: bool = False,
-    direction: ArrayLike | None = None,
+    direction: ArrayLike = 0.0,
 ) -> Friction:
     """Return the friction coefficient of rubber sliding on a rough surface (Eqs 22-24).
 
@@ -118,8 +119,8 @@ def friction(
         curves. Not with GSL's methods, a spectrum that knows directions, or `ScanContact` and
         heating at once.
     direction : array_like
-        Of sliding [rad], from x (a map's second axis) towards y (its first), by default 0;
-        broadcasts with pressure and velocity. It matters to `ScanContact`, whose scan is turned,
+        Of sliding [rad], from x (a map's second axis) towards y (its first); broadcasts with
+        pressure and velocity. It matters to `ScanContact`, whose scan is turned,
         and to spectra that know directions (`SelfAffineSpectrum(axis_ratio=, lay=)`,
         `power_spectrum(map, directional=True)`): sums over the plane of wavevectors then stand for
         I1 and I2, by as many harmonics as rtol asks for, and `lateral` is the force across. Not
@@ -149,7 +150,7 @@ def friction(
     >>> result.mu.round(4)
     array([0.002 , 0.0205])
     """
-    if direction is not None and np.ndim(direction):
+    if real_array(direction, "direction").ndim:
         return over_directions(
             partial(
                 friction,
@@ -169,7 +170,7 @@ def friction(
             direction,
             {"heating": heating, "contributions": contributions, "gradients": gradients},
         )
-    angle = 0.0 if direction is None else number(direction, "direction")
+    angle = number(direction, "direction")
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
     law = known_shift(solid, shift)
     at_points = {"pressure": pressure, "velocity": velocity}
@@ -187,7 +188,7 @@ def friction(
     t = at[0] if at else None
     shifted_by = None if law is None or t is None else temperature_shift_core(law)
     points = (*parts, model, added, p, v, with_contributions, count, shifted_by, t)
-    along_x = along_x_notes(surface) if direction is None else ()
+    along_x = along_x_notes(surface, angle)
     turned = {}
     if surface.is_directional or isinstance(correction, ScanContact):
         turned["direction"] = _shaped(np.full(np.size(p), angle), shape)

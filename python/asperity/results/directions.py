@@ -1,20 +1,43 @@
 """Friction at several directions of sliding, which the core solves one at a time."""
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import broadcast, frozen
+from asperity.base.arguments import Shape, broadcast, frozen, real_array
 from asperity.base.diagnostics import Argument, Must, Note, Value, fatal_first, refusal
 from asperity.results.friction import Friction, joined
 from asperity.spectrum import Spectrum
 
 LAY = 1.5  # ratio of the principal slopes above which directions matter: |C| differs by its square
+_ALONG_X = "along-x"
 _STEPS = 64  # of wavenumbers and of angles
+
+
+def toward_each(
+    direction: ArrayLike, points: Mapping[str, ArrayLike]
+) -> tuple[Shape, list[tuple[float, Any, dict[str, Any]]]]:
+    """Return the shape that directions and points have together; of each direction its angle [rad],
+    which of the points are its own, and those."""
+    angle = real_array(direction, "direction")
+    if not angle.ndim:
+        shape, columns = broadcast(**points)
+        return shape, [(angle.item(), slice(None), dict(zip(points, columns, strict=True)))]
+    if not angle.size:
+        raise InvalidInput(
+            Argument("direction"), " has 0 entries", Must(": must have "), "1 or more"
+        )
+    shape, (angle, *columns) = broadcast(direction=angle, **points)
+    angles, which = np.unique(angle, return_inverse=True)
+    each = []
+    for i, one in enumerate(angles.tolist()):
+        where = np.flatnonzero(which == i)
+        each.append((one, where, {k: c[where] for k, c in zip(points, columns, strict=True)}))
+    return shape, each
 
 
 def over_directions(
@@ -30,32 +53,30 @@ def over_directions(
     for name, given in alone.items():
         if given:
             raise refusal("direction", direction, f"one number with {name}")
-    if not np.size(direction):
-        raise InvalidInput(
-            Argument("direction"), " has 0 entries", Must(": must have "), "1 or more"
-        )
     given = {name: one for name, one in points.items() if one is not None}
-    shape, (angle, *columns) = broadcast(direction=direction, **given)
-    if not angle.size:
+    shape, each = toward_each(direction, given)
+    if not each:
         return solve(**points)  # which refuses no points
-    angles, which = np.unique(angle, return_inverse=True)
-    parts, places = [], []
-    for i, one in enumerate(angles.tolist()):
-        places.append(np.flatnonzero(which == i))
-        place = {name: column[places[-1]] for name, column in zip(given, columns, strict=True)}
-        parts.append(solve(**place, direction=one))
-    found = joined(parts, shape, np.concatenate(places))
-    of_all = {note.identity: note for part in reversed(parts) for note in reversed(part.notes)}
-    notes = tuple(fatal_first(reversed(of_all.values())))
-    return Friction._made(vars(found), direction=frozen(angle.reshape(shape)), notes=notes)
+    parts = [solve(**place, direction=angle) for angle, _, place in each]
+    found = joined(parts, shape, np.concatenate([where for _, where, _ in each]))
+    angles = np.broadcast_to(direction, shape)
+    notes = [note for part in parts for note in part.notes if note.code != _ALONG_X]
+    return Friction._made(
+        vars(found), direction=frozen(np.array(angles)), notes=tuple(fatal_first(once(notes)))
+    )
 
 
-def along_x_notes(spectrum: Spectrum) -> tuple[Note, ...]:
-    """Return a note where a spectrum with a lay is slid along x as no direction was given.
+def once(notes: Sequence[Note]) -> list[Note]:
+    """Return the notes, of those alike the first."""
+    return [*{note.identity: note for note in reversed(notes)}.values()][::-1]
+
+
+def along_x_notes(spectrum: Spectrum, direction: ArrayLike) -> tuple[Note, ...]:
+    """Return a note where a spectrum with a lay is slid along x, as without a direction.
 
     The lay is that of the mean square slopes <dh/dx_i dh/dx_j> = int q_i q_j C d^2q.
     """
-    if not spectrum.is_directional:
+    if np.ndim(direction) or direction or not spectrum.is_directional:
         return ()
     q = np.geomspace(spectrum.q0, spectrum.q1, _STEPS)
     phi = np.pi * np.arange(_STEPS) / _STEPS
@@ -70,9 +91,9 @@ def along_x_notes(spectrum: Spectrum) -> tuple[Note, ...]:
     return (
         Note(
             Argument("direction"),
-            ": none is given, so that x is slid along, at ",
+            " = 0: slides along x, at ",
             Value(f"{abs(degrees):.0f}", (abs(degrees),)),
             f" degrees to the ridges, across which the surface is {ratio:.3g} times as steep",
-            code="along-x",
+            code=_ALONG_X,
         ),
     )

@@ -1,5 +1,7 @@
 """Friction by direction: plane sums of the definition, and the limits that are known."""
 
+import inspect
+
 import numpy as np
 import pytest
 
@@ -154,8 +156,10 @@ def test_what_directions_do_not_know_is_refused():
         asperity.friction(spectrum, RUBBER, **at, method="qag")
     with pytest.raises(InvalidInput, match="rtol"):
         asperity.friction(spectrum, RUBBER, **at, rtol=1e-9)
-    with pytest.raises(InvalidInput, match="direction"):
-        asperity.friction(spectrum, RUBBER, **at, direction=np.nan)
+    for direction in (np.nan, None, [[1.0], [1.0, 2.0]]):
+        for function in (asperity.friction, asperity.contact_area):
+            with pytest.raises(InvalidInput, match="direction"):
+                function(spectrum, RUBBER, **at, direction=direction)
 
 
 def test_degrees_given_as_radians_are_noted():
@@ -165,26 +169,42 @@ def test_degrees_given_as_radians_are_noted():
 
 
 @pytest.mark.parametrize(
-    ("ratio", "direction", "noted"), [(2.5, None, True), (2.5, 0.0, False), (1.2, None, False)]
+    ("ratio", "direction", "noted"),
+    [(2.5, {}, True), (2.5, {"direction": [0, 1]}, False), (1.2, {}, False)],
 )
-def test_sliding_along_x_without_being_asked_to_is_noted(ratio, direction, noted):
-    spectrum = SelfAffineSpectrum(
-        rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5, axis_ratio=ratio, lay=np.radians(115)
-    )
-    at = {} if direction is None else {"direction": direction}
-    notes = asperity.friction(spectrum, RUBBER, pressure=2e5, velocity=1e-2, **at).notes
-    found = [note for note in notes if note.code == "along-x"]
+@pytest.mark.parametrize("notes_of", ["friction", "contact_notes"])
+def test_sliding_along_x_without_being_asked_to_is_noted(ratio, direction, noted, notes_of):
+    spectrum = ridges(ratio, np.radians(115))
+    found = getattr(asperity, notes_of)(spectrum, RUBBER, pressure=2e5, velocity=1e-2, **direction)
+    found = [note for note in getattr(found, "notes", found) if note.code == "along-x"]
     assert bool(found) is noted
     for note in found:
         assert note.value == pytest.approx(65, abs=1)  # degrees to the ridges
-        assert note.severity == "warning"
+        assert note.severity == "note"
+
+
+def test_the_direction_is_x_by_default():
+    for function in (asperity.friction, asperity.contact_area, asperity.validation.slide):
+        assert inspect.signature(function).parameters["direction"].default == 0.0
 
 
 def test_the_area_is_that_of_the_friction():
-    at = {"pressure": 2e5, "velocity": 1e-2, "correction": PartialContact(), "direction": 0.6}
+    at = {"pressure": [[1e5], [2e5]], "velocity": 1e-2, "direction": [0.6, 0, 1.2]}
+    at["correction"] = PartialContact()
     spectrum = rows(0.4, 0.1)
     area = asperity.contact_area(spectrum, RUBBER, **at)
-    assert area == asperity.friction(spectrum, RUBBER, **at).contact_area
+    np.testing.assert_array_equal(area, asperity.friction(spectrum, RUBBER, **at).contact_area)
+    one = at | {"pressure": 2e5, "direction": 1.2}
+    assert asperity.contact_area(spectrum, RUBBER, **one) == area[1, 2]
+    by_scale = asperity.contact_area(spectrum, RUBBER, **at, wavenumber=[1e4, 2e5])
+    np.testing.assert_allclose(by_scale[..., 1], area, rtol=2e-6)
+    stress = np.array([[1e5], [1e6]])
+    del at["pressure"], at["correction"]
+    parts = asperity.pressure_distribution(stress, spectrum, RUBBER, **at, pressure=1e5)
+    alone = asperity.pressure_distribution(
+        1e6, spectrum, RUBBER, **one | {"pressure": 1e5, "correction": None}
+    )
+    assert parts[1, 2] == alone
 
 
 PAYNE = StrainFactors(strain=[0.01, 0.1, 0.5], storage=[0.8, 0.5, 0.3], loss=[1.2, 0.8, 0.4])
@@ -431,9 +451,10 @@ def test_noise_beyond_the_roughness_hides_no_harmonics(finer):
 
 
 def test_no_directions_are_refused():
-    with pytest.raises(InvalidInput) as caught:
-        asperity.friction(rows(0.4), RUBBER, pressure=1e5, velocity=0.1, direction=[])
-    assert caught.value.argument == "direction"
+    for function in (asperity.friction, asperity.contact_area):
+        with pytest.raises(InvalidInput) as caught:
+            function(rows(0.4), RUBBER, pressure=1e5, velocity=0.1, direction=[])
+        assert caught.value.argument == "direction"
 
 
 def test_a_table_is_heated_after_it_was_cold():
