@@ -189,7 +189,7 @@ def friction(
     shifted_by = None if law is None or t is None else temperature_shift_core(law)
     points = (*parts, model, added, p, v, with_contributions, count, shifted_by, t)
     along_x = along_x_notes(surface, angle)
-    turned = {}
+    turned = {"preparation": getattr(surface, "preparation", None)}
     if surface.is_directional or isinstance(correction, ScanContact):
         turned["direction"] = _shaped(np.full(np.size(p), angle), shape)
     if heating is None:

@@ -130,7 +130,7 @@ def power_spectrum(
         larger than the map or too small, all have too many drop-outs, or the file of a memory map
         is changed or cut short while it is read.
     """
-    how = prepared(window, detrend)
+    how, preparation = prepared(window, detrend), _said(window, detrend)
     several = whole(threads, "threads", lowest=1, highest=1024)
     side = choice(part, "part", PARTS)
     if pixel_size is None and not isinstance(surface, HeightMap | LineScan):
@@ -142,9 +142,8 @@ def power_spectrum(
             raise InvalidInput(
                 Argument("directional"), " = True", MUST_BE, "False by tiles and with a part"
             )
-        return around(
-            TabulatedSpectrum, _core.directional_spectrum(core_map(surface), *how, several)
-        )
+        core = _core.directional_spectrum(core_map(surface), *how, several)
+        return around(TabulatedSpectrum, core, preparation=preparation)
     if tiles is not None or not isinstance(surface, HeightMap | LineScan):
         if part != "all":
             raise InvalidInput(Argument("part"), f' = "{part}"', MUST_BE, '"all" by tiles')
@@ -168,7 +167,8 @@ def power_spectrum(
             raise InvalidInput(
                 Argument(name), ": goes with tiles, or with an array instead of a HeightMap"
             )
-    return around(TabulatedSpectrum, _core.power_spectrum(core_map(surface), *how, several, side))
+    core = _core.power_spectrum(core_map(surface), *how, several, side)
+    return around(TabulatedSpectrum, core, preparation=preparation)
 
 
 def power_spectrum_of(
@@ -187,7 +187,7 @@ def power_spectrum_of(
     ny, nx = source.shape
     size = (min(DEFAULT, ny), min(DEFAULT, nx)) if tiles is None else tiles
     sides = tile_shape(size, source.shape, source.pixel_size)
-    return tiled_spectrum(
+    made = tiled_spectrum(
         source,
         grid_of(source.shape, sides, overlap),
         window=how[0],
@@ -195,6 +195,12 @@ def power_spectrum_of(
         max_dropouts=max_dropouts,
         workers=Workers(threads, executor),
     )
+    return around(TabulatedSpectrum, made._core, preparation=_said(window, detrend))
+
+
+def _said(window: Window, detrend: Detrend | None) -> str:
+    """How heights are prepared, in the words of a scene's [surface]."""
+    return f'window = "{window}", detrend = "{detrend or "none"}"'
 
 
 def line_spectrum(

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Self
+from collections.abc import Mapping
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,13 +21,13 @@ from asperity.base.arguments import (
     over,
     shaped,
 )
-from asperity.base.diagnostics import Argument, Must
+from asperity.base.diagnostics import Argument, Must, refusal
 from asperity.base.parameters import parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, LAST_WAVENUMBER, RMS_HEIGHT
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import CoreValue, value
 from asperity.spectrum_rows import Rows, two_axes
-from asperity.surface import around
+from asperity.surface import around, like
 
 Flags = Conversion[ArrayLike | None, NDArray[np.uint8] | None]
 
@@ -110,11 +111,11 @@ class _Spectrum(Table):
             The band would be wider.
         """
         lower, upper = number_or_none(q0, "q0"), number_or_none(q1, "q1")
-        return around(type(self), _core.truncated(self._core, lower, upper))
+        return like(self, _core.truncated(self._core, lower, upper))
 
     def scaled(self, factor: float) -> Self:
         """Return the spectrum with all densities multiplied by `factor` [-]."""
-        return around(type(self), _core.scaled(self._core, number(factor, "factor")))
+        return like(self, _core.scaled(self._core, number(factor, "factor")))
 
 
 @value
@@ -246,6 +247,8 @@ class TabulatedSpectrum(Rows, _Spectrum):
     q1 : float, optional
         Where the band ends [1/m], on which moments, contact and friction are taken; by default at
         the last row. Rows beyond it are kept: `truncated(q1=...)` takes more of them.
+    preparation : str, optional
+        Window and trend of the heights, as `power_spectrum` says them; results repeat it.
 
     Raises
     ------
@@ -268,6 +271,8 @@ class TabulatedSpectrum(Rows, _Spectrum):
     sine: OptionalVector = ABSENT
     harmonic_error: OptionalVector = ABSENT
     q1: Conversion[float | None, float] = ABSENT
+    preparation: str | None = None
+    _beside: ClassVar[Mapping[str, Any]] = {"preparation": None}
 
     def _take_harmonics(self) -> None:
         for name in ("cosine", "sine", "harmonic_error"):
@@ -280,6 +285,8 @@ class TabulatedSpectrum(Rows, _Spectrum):
 
     def __post_init__(self) -> None:
         self._set(q1=number_or_none(self.q1, "q1"))
+        if not isinstance(self.preparation, str | None):
+            raise refusal("preparation", self.preparation, "a text, or None")
         super().__post_init__()
         self._set(q1=self._core.q1)
 
@@ -295,13 +302,12 @@ class TabulatedSpectrum(Rows, _Spectrum):
 
     def _columns(self) -> Columns:
         columns = super()._columns()
-        return Columns(
-            columns.coordinates, columns.variables, {**columns.attributes, "q1": self.q1}
-        )
+        more = {"q1": self.q1} | stated(self.preparation)
+        return Columns(columns.coordinates, columns.variables, {**columns.attributes, **more})
 
     def _summary(self) -> dict[str, Any]:
         moments = {"q1": self.q1, "rms_height": self.rms_height, "rms_slope": self.rms_slope}
-        return super()._summary() | moments
+        return super()._summary() | moments | stated(self.preparation)
 
 
 @value
@@ -363,6 +369,11 @@ class LineSpectrum(Rows):
         """
         binned = self if per_decade is None else self.log_binned(per_decade=per_decade)
         return around(TabulatedSpectrum, binned._core.isotropic())
+
+
+def stated(preparation: str | None) -> dict[str, str]:
+    """Return what tables and summaries have of the preparation of heights."""
+    return {} if preparation is None else {"preparation": preparation}
 
 
 Spectrum = SelfAffineSpectrum | TabulatedSpectrum

@@ -18,7 +18,7 @@ from asperity.base.arguments import (
 )
 from asperity.base.diagnostics import MUST_BE, Argument, Must, valued
 from asperity.base.table import Column, Columns, Table
-from asperity.surface import around
+from asperity.surface import like
 
 
 class Rows(Table):
@@ -62,7 +62,8 @@ class Rows(Table):
         if self.curvature_kurtosis is not None and self.kurtosis is None:
             allowed = Must(": must be "), "given with curvature_kurtosis"
             raise InvalidInput(Argument("kurtosis"), " = None", *allowed)
-        self._set(_core=getattr(_core, type(self).__name__)(*self._arguments().values()))
+        of_core = [getattr(self, name) for name in self._of_core()]
+        self._set(_core=getattr(_core, type(self).__name__)(*of_core))
 
     def _take_harmonics(self) -> None:
         """Check and keep harmonics, where the class has them."""
@@ -85,7 +86,7 @@ class Rows(Table):
         per_decade : float
             Number of bins in a factor 10 of the wavenumber.
         """
-        return around(type(self), self._core.log_binned(number(per_decade, "per_decade")))
+        return like(self, self._core.log_binned(number(per_decade, "per_decade")))
 
     def _summary(self) -> dict[str, Any]:
         band = {"q0": float(self.wavenumber[0]), "q1": float(self.wavenumber[-1])}

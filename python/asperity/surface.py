@@ -36,13 +36,22 @@ Kind = TypeVar("Kind", bound=Value)
 _MOST_PIXELS = 1000  # along a side of a picture; a larger map is thinned out
 
 
-def around(kind: type[Kind], core: Any) -> Kind:
-    """Return an object of the package around one that the core made; its arrays are read-only."""
-    fields = {name: getattr(core, name) for name in kind.__match_args__}
+def around(kind: type[Kind], core: Any, **beside: Any) -> Kind:
+    """Return an object of the package around one that the core made; its arrays are read-only.
+
+    `beside` are fields that the core does not know, by default those of the class.
+    """
+    of_core = {name: getattr(core, name) for name in kind._of_core()}
+    fields = {**of_core, **kind._beside, **beside}
     for entry in fields.values():
         if isinstance(entry, np.ndarray):
             frozen(entry)
     return kind._made(_core=core, **fields)
+
+
+def like(one: Kind, core: Any) -> Kind:
+    """Return what the core made of an object, with the fields that it does not know."""
+    return around(type(one), core, **{name: getattr(one, name) for name in one._beside})
 
 
 def pixel_sizes(sizes: Any) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from html import escape
-from typing import Any, Self, dataclass_transform
+from typing import Any, ClassVar, Self, dataclass_transform
 
 import numpy as np
 
@@ -26,6 +26,7 @@ class Value:
 
     _core: Any
     _title = ""  # in menus; the name of the class, if empty
+    _beside: ClassVar[Mapping[str, Any]] = {}  # fields that the core does not know, with defaults
     __match_args__: tuple[str, ...]
     __hash__ = None  # type: ignore[assignment]  # equal arrays have no equal hash
 
@@ -55,6 +56,11 @@ class Value:
         made = object.__new__(cls)
         made.__dict__.update(values, **named)
         return made
+
+    @classmethod
+    def _of_core(cls) -> tuple[str, ...]:
+        """Return the names of the fields that the core's object has too."""
+        return tuple(name for name in cls.__match_args__ if name not in cls._beside)
 
     def _arguments(self) -> dict[str, Any]:
         return {name: getattr(self, name) for name in self.__match_args__}

@@ -13,6 +13,7 @@ from asperity.base.diagnostics import Argument, Note, Value, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.results.gradients import Gradients
+from asperity.spectrum import stated
 
 
 def column(unit: str, meaning: str) -> Any:
@@ -108,6 +109,8 @@ class Friction(Table):
         heating, and with GSL's methods, which know nothing of the history.
     gradients : Gradients or None
         Slopes of mu, where they were asked for.
+    preparation : str or None
+        Window and trend of the spectrum's heights, where `power_spectrum` made it.
     """
 
     # in the order of the core's `friction_columns`
@@ -136,6 +139,7 @@ class Friction(Table):
     temperature_profile: Array | None = None
     sliding_length: Any = _WhenAsked(None)
     gradients: Gradients | None = None
+    preparation: str | None = None
 
     def mu_at(self, distance: ArrayLike) -> Any:
         """Return the friction coefficient [-] after a `distance` s [m] slid from rest.
@@ -165,7 +169,9 @@ class Friction(Table):
         names = ("mu", "pressure", "velocity", "temperature", "contact_area", "error_estimate")
         shown = {name: getattr(self, name) for name in names if getattr(self, name) is not None}
         shape = {"shape": np.shape(self.mu)} if np.shape(self.mu) else {}
-        return shape | shown | ({"notes": self.notes} if self.notes else {})
+        return (
+            shape | shown | stated(self.preparation) | ({"notes": self.notes} if self.notes else {})
+        )
 
     def _columns(self) -> Columns:
         axes, sweeps = _axes(self)
@@ -188,7 +194,8 @@ class Friction(Table):
             if self.temperature_profile is not None:
                 profile = self.temperature_profile
                 variables["temperature_profile"] = Column((*axes, "wavenumber"), profile, "K")
-        return Columns(coordinates, variables, {"notes": list(self.notes)})
+        attributes = {"notes": list(self.notes)} | stated(self.preparation)
+        return Columns(coordinates, variables, attributes)
 
     def _draw(self, axes: Any) -> None:
         from asperity.draw.friction import draw_result  # here: `import asperity` is to be quick
@@ -242,7 +249,7 @@ def joined(
     }
     cold = None if first.cold is None else joined([known(part.cold) for part in parts], shape)
     shaped = {name: column.reshape(shape) for name, column in columns.items()}
-    return Friction._made(shaped, cold=cold)
+    return Friction._made(shaped, cold=cold, preparation=first.preparation)
 
 
 def _said(name: str) -> tuple[str, str]:

@@ -66,8 +66,7 @@ def tile_columns(
     if missing:
         tile = tile.fill_dropouts(most)
     spectrum = _core.power_spectrum(tile, window, detrend, 1, 0)
-    names: tuple[str, ...] = TabulatedSpectrum.__match_args__
-    return tuple(getattr(spectrum, name) for name in names)
+    return tuple(getattr(spectrum, name) for name in TabulatedSpectrum._of_core())
 
 
 def _single(
@@ -79,7 +78,7 @@ def _single(
     if columns is None:
         _check_dropouts(float(np.mean(np.isnan(piece.read()))), how[-1])
         raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
-    arguments: dict[str, Any] = dict(zip(TabulatedSpectrum.__match_args__, columns, strict=True))
+    arguments: dict[str, Any] = dict(zip(TabulatedSpectrum._of_core(), columns, strict=True))
     return TabulatedSpectrum(**arguments)
 
 

@@ -94,3 +94,24 @@ def test_a_band_without_rows_is_refused(q1):
     with pytest.raises(asperity.InvalidInput) as caught:
         TabulatedSpectrum(wavenumber=[5e3, 1e4], density=[1e-18, 1e-20], q1=q1)
     assert caught.value.argument == "q1"
+
+
+@pytest.mark.parametrize("directional", [False, True])
+def test_a_result_states_how_the_heights_were_prepared(map_, directional):
+    """In the words of a scene, through what keeps the rows, a pickle and directions."""
+    made = asperity.power_spectrum(
+        map_, window="hann", detrend="quadratic", directional=directional
+    )
+    text = 'window = "hann", detrend = "quadratic"'
+    kept = pickle.loads(pickle.dumps(made)).truncated(q1=2e5).scaled(0.5)
+    for one in (made, kept, made.log_binned(per_decade=20)):
+        assert one.preparation == text
+        assert one == pickle.loads(pickle.dumps(one))
+    for direction in (None, [0.0, 1.0]):
+        result = asperity.friction(kept, RUBBER, **POINT, direction=direction)
+        assert result.preparation == text
+        assert text in repr(result)
+        assert result.to_xarray().attrs["preparation"] == text
+    assert asperity.friction(LAW, RUBBER, **POINT).preparation is None
+    merged = asperity.merge_spectra([made, made])
+    assert merged.preparation is None

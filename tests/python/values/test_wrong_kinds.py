@@ -104,7 +104,8 @@ def right(argument, value):
         or (isinstance(value, dict) and argument in {"fixed", "paths", "standard_errors"})
         or (
             isinstance(value, str)
-            and argument in {"text", "path", "paths", "measured", "scene", "scenes", "title"}
+            and argument
+            in {"text", "path", "paths", "measured", "scene", "scenes", "title", "preparation"}
         )
         or (callable(value) and argument in {"progress", "tell"})
     )
