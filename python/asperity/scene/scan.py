@@ -84,7 +84,10 @@ class Lay:
 
     @property
     def degrees(self) -> float:
-        return math.degrees(self.direction)
+        """In (-45, 135], which ridges along x and along y are far from the ends of: those along y
+        were at -89.7 on one band and at 89.7 on another."""
+        degrees = math.degrees(self.direction)
+        return degrees + 180 if degrees <= -45 else degrees
 
 
 def lay_of(
