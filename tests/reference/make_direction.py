@@ -7,7 +7,8 @@ lay) / r) and C(q, phi) ~ k^(-2 - 2 H) on q0 < q < q1,
 with W = erf(1 / (2 sqrt G)), or the stress of PartialContact's rule (partial_rule.py), in which I2
 is that of the plane, int |E|^2 C dphi / mean C, and c the mean over directions; beyond q_e C has
 the shape that it has there, and T is times (h_r / h_c)^(0.4 cos^2), the rms slopes along the ridges
-and across them and the angle of the velocity to the way across.
+and across them and the angle of the velocity to the way across; the force across has A^(1/8) of
+R dG.
 Method one: Gauss rules in z, cos(phi) = sech(z), between the frequencies of a table; method two:
 in phi, other panels in ln q and another search for kappa, as in make_partial_contact.py.
 """
@@ -176,13 +177,13 @@ def solve(rubber, circle, velocity, pressure, shapes, method):
             * np.exp(-3 * z)
         )
         excess = 1 - g1 / (stiff**2 / 8 * whole * e2[s, 0])
-        found = []
+        found, steering = [], 1.0
         for part, tail in ((i1, t1), (across, t_across)):
             nodes = (
                 g,
                 rate * weights,
                 stiff**2 / 8 * i2[s] * window,
-                part[s] / i2[s],
+                steering * part[s] / i2[s],
                 g1,
                 4 * w_e / whole,
                 excess,
@@ -191,6 +192,7 @@ def solve(rubber, circle, velocity, pressure, shapes, method):
             if not found:
                 kappa = root(nodes, beyond)
                 found = [kappa, erf(0.5 / np.sqrt(kappa * g1))]
+                steering = erf(0.5 / np.sqrt(kappa * np.maximum(g, 1e-300))) ** 0.125
             found.append(force * sums(kappa, nodes, beyond)[1])
         yield [*plain, *found]
 

@@ -3,8 +3,8 @@
 The rule of PartialContact as in make_hot_partial_contact.py with sums over the plane in the place
 of I1 and I2: a_T(T0 + theta(q)) shifts w first, then f and g of eps(q) (make_strain.py; h'(q) is
 that of all directions) scale E' and E'', so that int |E|^2 C dphi is f^2 of what E' has of it plus
-g^2 of what E'' has; the force across is summed over the same stress. Circles by both methods of
-make_direction.py. Scenes without heat have no kernel.
+g^2 of what E'' has; the force across is summed over A^(1/8) of R dG and over T. Circles by both
+methods of make_direction.py. Scenes without heat have no kernel.
 """
 
 from functools import cache

@@ -135,8 +135,8 @@ def closed(w, _wavenumber):
 
 
 def solve(scene, between, last, integrals, kernel, root, count, growth, longest, in_power):
-    """Return hysteresis, area, P_m and the rise at q_e and q1, then sums as the hysteresis of what
-    `integrals` has beside I1 and I2.
+    """Return hysteresis, area, P_m and the rise at q_e and q1, then forces across of what
+    `integrals` has beside I1 and I2: A^(1/8) of R dG.
 
     Panels end at the scene's `stops` too [1/m], in rising order; `crossed`: the edges over those of
     isotropic roughness.
@@ -229,7 +229,8 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
         rise = unit * (g @ flux)
         if np.abs(rise - theta).max() <= 1e-12 * rise.max():
             force = 4 * pressure * (1 - scene["poisson_ratio"] ** 2)
-            beside = (force * (per_i2 @ other[: per_i2.size]) for other in others)
+            across = per_i2 * np.concatenate([share.ravel() ** 0.125, np.ones(of_tail)])
+            beside = (force * (across @ other[: across.size]) for other in others)
             return hysteresis, 1 - rest, macro_area, rise[-2], rise[-1], *beside
         if np.abs(rise - theta).max() > 0.9 * missed:
             part = max(0.1, part / 1.5)

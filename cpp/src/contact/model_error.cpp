@@ -47,7 +47,7 @@ constexpr Tables partial_contact{
 /// to 6 in all directions, q1 / q0 from 4 to 16, p* from 0.02 to 0.27. Wider bands are taken to be no better than
 /// these.
 constexpr BySpeed ridges_without_correction{0.161, 0.528, 0.831}, ridges_partial_contact{0.057, 0.068, 0.045};
-constexpr double strongest = 0.923;  // |<exp 2 i phi>| of the slope variance in the last tenth, axis ratio 6
+constexpr double strongest = 0.923;  // |<exp 2 i phi>| of the slope variance, axis ratio 6
 constexpr double lightest_on_ridges = 0.02, heaviest_on_ridges = 0.3, narrowest_on_ridges = 4;
 constexpr double loads[] = {0.02, 0.06, 0.2}, lightest = 0.0015, lightest_of_narrow = 0.009, heaviest = 0.6;
 constexpr double lightest_on_road = 0.005, heaviest_on_road = 0.3;
@@ -88,9 +88,9 @@ ModelError::ModelError(const Correction& correction, const Spectrum& spectrum, c
   if (!tables) return;
   const TabulatedSpectrum* const ridges = harmonics_of(spectrum);
   if (ridges) {
-    const Rings end = Directions(*ridges, SurfaceSegments(spectrum).get(), 0).end();
+    const Rings mean = Directions(*ridges, SurfaceSegments(spectrum).get(), 0).mean();
     const bool partial = std::holds_alternative<PartialContact>(correction);
-    if (!(partial || tables == &no_correction) || std::hypot(end.along[0], end.across[0]) > strongest) return;
+    if (!(partial || tables == &no_correction) || std::hypot(mean.along[0], mean.across[0]) > strongest) return;
     if (q1 < q0 * narrowest_on_ridges * (1 - rounding) || q1 > q0 * road * (1 + rounding)) return;
     at_least_ = partial ? ridges_partial_contact : ridges_without_correction;
   }

@@ -60,9 +60,13 @@ void FlashMap::take_harmonics() {
 }
 
 double FlashMap::lateral() const {
+  if (!touches() || columns_.across.empty()) return 0;
+  VectorXd part = contact_->part();
+  if (const VectorXd steering = contact_->steering(); steering.size() > 0)
+    part.head(steering.size()).array() *= steering.array();
   double sum = 0;
-  for (std::size_t j = 0; touches() && j < columns_.across.size(); ++j)
-    if (columns_.i1[j] != 0) sum += contact_->part()[static_cast<Index>(j)] * (columns_.across[j] / columns_.i1[j]);
+  for (std::size_t j = 0; j < columns_.across.size(); ++j)
+    if (columns_.i1[j] != 0) sum += part[static_cast<Index>(j)] * (columns_.across[j] / columns_.i1[j]);
   return mu_factor_ * sum;
 }
 

@@ -27,9 +27,9 @@ def rows():
         )
 
 
-def law_of(row):
+def spectrum_of(name, row):
     waves = int(row["lowest"]), int(row["highest"])
-    return make_exact_direction.spectrum(row["hurst"], waves, row["axis_ratio"])
+    return make_exact_direction.spectrum(name, row["hurst"], waves, row["axis_ratio"])
 
 
 def point(row):
@@ -40,7 +40,7 @@ def point(row):
     }
 
 
-@pytest.mark.parametrize("number", [40, 200, 400])
+@pytest.mark.parametrize("number", [40, 200, 400, 430])
 def test_a_row_is_what_slide_gives(number):
     name, rubber, row = list(rows())[number]
     seeds = next(
@@ -50,7 +50,7 @@ def test_a_row_is_what_slide_gives(number):
     found = [
         slide(
             asperity.synthesize(
-                law_of(row), shape=(points, points), pixel_size=side / points, seed=seed
+                spectrum_of(name, row), shape=(points, points), pixel_size=side / points, seed=seed
             ),
             make_exact_direction.series(rubber),
             **point(row),
@@ -68,28 +68,34 @@ def test_a_row_is_what_slide_gives(number):
     )
 
 
+# of the ratio of the forces: where all waves have one axis ratio to 3 it is within 0.04
+RATIOS = {"fit": 0.04, "judge": 0.04, "far": 0.05, "fine": 0.04, "coarse": 0.04, "rolloff": 0.08}
+
+
 def test_partial_contact_over_ridges():
     """Of maps that nothing was fitted to: 8 % rms in mu, 6 in A, and what model_error says."""
-    off = {"fit": [], "judge": [], "far": []}
+    off = {name: [] for name in RATIOS}
     said = []
     for name, rubber, row in rows():
         if row["axis_ratio"] == 1:
             continue
         found = asperity.friction(
-            law_of(row),
+            spectrum_of(name, row),
             make_exact_direction.series(rubber),
             **point(row),
             correction=PartialContact(),
             rtol=1e-4,
         )
         mu = found.mu / row["mu"] - 1
-        off[name].append((mu, found.contact_area / row["contact_area"] - 1))
+        ratio = found.lateral / found.mu - row["lateral"] / row["mu"]
+        off[name].append((mu, found.contact_area / row["contact_area"] - 1, ratio))
         if name != "fit":
             said.append((mu, found.model_error))
-    for pairs in off.values():
-        mu, area = np.sqrt(np.mean(np.square(pairs), axis=0))
+    for name, errors in off.items():
+        mu, area, ratio = np.sqrt(np.mean(np.square(errors), axis=0))
         assert mu < 0.08
         assert area < 0.06
+        assert ratio < RATIOS[name]
     mu, told = np.transpose(said)
     assert np.isfinite(told).all()
     assert np.sqrt(np.mean(mu**2)) < np.sqrt(np.mean(told**2))

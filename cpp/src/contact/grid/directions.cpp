@@ -9,7 +9,6 @@
 #include "contact/grid/grid.hpp"
 #include "rubber/loss_part.hpp"
 #include "spectrum/harmonics.hpp"
-#include "spectrum/roughness_window.hpp"
 
 namespace asperity {
 
@@ -58,7 +57,7 @@ const TabulatedSpectrum* harmonics_of(const Spectrum& spectrum) {
 }
 
 Directions::Directions(const TabulatedSpectrum& table, std::span<const Segment> surface, double direction)
-    : table_(table), size_(table.harmonics().count), end_(table.harmonics().count) {
+    : table_(table), size_(table.harmonics().count), mean_(table.harmonics().count) {
   const RingHarmonics& harmonics = table.harmonics();
   for (std::size_t m = 0; m < count(); ++m) {
     const double angle = 2 * static_cast<double>(m + 1) * direction;
@@ -68,15 +67,12 @@ Directions::Directions(const TabulatedSpectrum& table, std::span<const Segment> 
   for (std::size_t i = 0; i < harmonics.cosine.size(); ++i)
     size_[i % count()] = std::fmax(size_[i % count()], std::hypot(harmonics.cosine[i], harmonics.sine[i]));
   // between rows harmonics are straight lines of ln q
-  const double from = RoughnessWindow(surface).last_from();
   std::vector<double> cosine(count()), sine(count());
   double whole = 0;
   for (const Segment& segment : surface) {
-    const double length = segment.length(), begin = std::clamp(segment.offset(std::fmax(from, segment.a)), 0.0, length);
-    if (segment.b <= from || !(length > begin)) continue;
-    const auto [zeroth, first] = roughness_moments(segment, begin, length);
+    const auto [zeroth, first] = roughness_moments(segment, 0, segment.length());
     if (!(zeroth > 0)) continue;
-    const HarmonicsAt at(table, segment.a * std::exp(begin + first / zeroth));
+    const HarmonicsAt at(table, segment.a * std::exp(first / zeroth));
     whole += zeroth;
     for (std::size_t m = 0; m < count(); ++m) {
       cosine[m] += zeroth * at.cosine(m);
@@ -85,7 +81,7 @@ Directions::Directions(const TabulatedSpectrum& table, std::span<const Segment> 
   }
   for (auto* const row : {&cosine, &sine})
     for (double& one : *row) one /= whole > 0 ? whole : 1;
-  turn(cosine.data(), sine.data(), end_, 0);
+  turn(cosine.data(), sine.data(), mean_, 0);
 }
 
 void Directions::turn(const double* cosine, const double* sine, Rings& to, std::size_t wave) const {
@@ -122,8 +118,8 @@ Rings Directions::at_nodes(const ContactGrid& grid) const {
   const std::size_t macro = grid.size() - cosine.size() / count();
   for (std::size_t i = grid.band_size(); i < grid.size(); ++i)
     for (std::size_t m = 0; i < macro && m < count(); ++m) {
-      result.along[m * result.waves + i] = end_.along[m];
-      result.across[m * result.waves + i] = end_.across[m];
+      result.along[m * result.waves + i] = mean_.along[m];
+      result.across[m * result.waves + i] = mean_.across[m];
     }
   for (std::size_t i = macro; i < grid.size(); ++i)
     turn(&cosine[(i - macro) * count()], &sine[(i - macro) * count()], result, i);

@@ -50,8 +50,8 @@ class Directions {
   [[nodiscard]] std::size_t count() const { return table_.harmonics().count; }
   /// Of a wave of the band [1/m].
   [[nodiscard]] Rings at(double wavenumber) const;
-  /// Of the last tenth of the roughness, which the edges of contacts have.
-  [[nodiscard]] const Rings& end() const { return end_; }
+  /// The mean by slope variance, which the edges of contacts have.
+  [[nodiscard]] const Rings& mean() const { return mean_; }
   /// Of all nodes of a grid.
   [[nodiscard]] Rings at_nodes(const ContactGrid& grid) const;
 
@@ -70,7 +70,7 @@ class Directions {
   const TabulatedSpectrum& table_;
   std::vector<double> cosine_, sine_;  // of 2 m times the direction
   std::vector<double> size_;           // of each harmonic at most
-  Rings end_;
+  Rings mean_;
 };
 
 /// The table whose harmonics a spectrum has; none where it is a mean over directions.

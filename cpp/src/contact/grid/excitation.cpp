@@ -159,12 +159,12 @@ bool Excitation::of_waves(std::span<const double> w, std::span<const double> wav
   if (softening_)
     for (const double q : wavenumber) factors.push_back((*softening_)(q));
   if (harmonics == 0) return (*this)(w, factors, i1, i2, i1_outside);
-  return (*this)(w, factors, i1, i2, i1_outside, {&directions_->end(), harmonics, across});
+  return (*this)(w, factors, i1, i2, i1_outside, {&directions_->mean(), harmonics, across});
 }
 
 AngularIntegrals Excitation::operator()(double w, double wavenumber, Waves waves) const {
   if (directions_) {
-    const Rings rings = waves == Waves::of_edges ? directions_->end() : directions_->at(wavenumber);
+    const Rings rings = waves == Waves::of_edges ? directions_->mean() : directions_->at(wavenumber);
     std::vector<ModulusFactors> factors;
     if (softening_) factors.push_back((*softening_)(wavenumber));
     AngularIntegrals at{};

@@ -41,8 +41,8 @@ class Softening {
   std::vector<double> kinks_;
 };
 
-/// The waves that one asks of: those of the roughness, or what the edges of contacts carry beyond its end, which has
-/// the directions of that end.
+/// The waves that one asks of: those of the roughness, or what the edges of contacts carry beyond its end, which have
+/// the directions of all roughness.
 enum class Waves { of_roughness, of_edges };
 
 /// What rings ask for beside I1 and I2: their harmonics, how many of them, and room for the force across and for what

@@ -59,7 +59,10 @@ double LevelSolver::across(const Level& level, const ContactSums& sums) const {
   const VectorXd &stress = level.theory->stress(), &part = level.theory->part();
   const bool by_stress = window_ && grid.pieces();
   const auto n = static_cast<Index>(by_stress ? grid.band_size() : grid.size());
-  const Eigen::Map<const Eigen::ArrayXd> lateral(level.across.data(), n), i1(level.i1.data(), n);
+  Eigen::ArrayXd lateral = Eigen::Map<const Eigen::ArrayXd>(level.across.data(), n);
+  if (const VectorXd steering = level.theory->steering(); steering.size() > 0)
+    lateral.head(steering.size()) *= steering.array();
+  const Eigen::Map<const Eigen::ArrayXd> i1(level.i1.data(), n);
   if (!by_stress) return (i1 != 0).select(part.head(n).array() * lateral / i1, 0).sum() / scale_;
   const double edges = sums.edges * grid.beyond().end->window * edges_.across;
   return edges + (grid.weight().array() * stress.array() * lateral).sum();

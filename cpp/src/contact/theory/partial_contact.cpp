@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "contact/theory/partial_contact_rule.hpp"
+#include "contact/theory/partial_loops.hpp"
 #include "contact/theory/partial_root.hpp"
 #include "contact/theory/theory.hpp"
 
@@ -39,6 +40,7 @@ class PartialContactTheory final : public Theory {
   void begin_at(double log_kappa) override { kappa_ = std::exp(log_kappa); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   void gradient(const ContactNumber& number, ContactGradient& result) override;
+  [[nodiscard]] VectorXd steering() const override;
   [[nodiscard]] double stress_at(double g, double wavenumber, double i2) const override;
   [[nodiscard]] double density_of_edges(double wavenumber, double i1, double i2) const override;
 
@@ -313,6 +315,14 @@ void PartialContactTheory::gradient(const ContactNumber& number, ContactGradient
     result.total -= over_excess;
   }
   back_through_macro(g_macro > 0 ? by_macro / g_macro : 0, result);
+}
+
+VectorXd PartialContactTheory::steering() const {
+  const VectorXd g = kappa_ * scale_ * g_;
+  VectorXd share(g.size());
+  contact_shares(g.data(), static_cast<std::size_t>(g.size()), share.data());
+  static_assert(partial_contact::steering == 0.125);
+  return share.cwiseSqrt().cwiseSqrt().cwiseSqrt();
 }
 
 double PartialContactTheory::stress_at(double g, double wavenumber, double i2) const {

@@ -254,8 +254,8 @@ std::unique_ptr<Theory> contact_theory(const ContactModel& model, const Spectrum
   if (std::holds_alternative<PartialContact>(model.correction)) {
     const TabulatedSpectrum* const table = harmonics_of(spectrum);
     if (!table) return partial_contact_theory(grid, 1);
-    const Rings end = Directions(*table, surface, model.direction).end();
-    return partial_contact_theory(grid, partial_contact::crossed_edges(end.along[0], end.across[0]));
+    const Rings mean = Directions(*table, surface, model.direction).mean();
+    return partial_contact_theory(grid, partial_contact::crossed_edges(mean.along[0], mean.across[0]));
   }
   return std::make_unique<PerssonTheory>(model, spectrum, surface, grid);
 }

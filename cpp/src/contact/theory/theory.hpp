@@ -89,6 +89,9 @@ class Theory {
   /// roughness on.
   [[nodiscard]] virtual double density_of_edges(double /*wavenumber*/, double /*i1*/, double /*i2*/) const { return 0; }
 
+  /// Of the last evaluation or solution: the share of the directions of roughness that the stress of each of the band's
+  /// nodes has, by which the force across is less; none where all.
+  [[nodiscard]] virtual Eigen::VectorXd steering() const { return {}; }
   [[nodiscard]] const Eigen::VectorXd& part() const { return part_; }
   [[nodiscard]] virtual double area() = 0;                    // A / A0 at q1
   [[nodiscard]] double macro_area() const { return macro_; }  // P at q_m
