@@ -107,7 +107,7 @@ def test_a_result_states_how_the_heights_were_prepared(map_, directional):
     for one in (made, kept, made.log_binned(per_decade=20)):
         assert one.preparation == text
         assert one == pickle.loads(pickle.dumps(one))
-    for direction in (None, [0.0, 1.0]):
+    for direction in (0.0, [0.0, 1.0]):
         result = asperity.friction(kept, RUBBER, **POINT, direction=direction)
         assert result.preparation == text
         assert text in repr(result)
