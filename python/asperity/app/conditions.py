@@ -10,9 +10,10 @@ from asperity.app.controls import Changed, controls
 from asperity.app.correction_part import CorrectionFields
 from asperity.app.parts import Quantity, part
 from asperity.app.state import State
-from asperity.app.worker import Found, Worker
+from asperity.app.worker import Shows, Worker
 from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.diagnostics import Error
+from asperity.scene.model import Scene
 from asperity.scene.parts import ADHESION, HEATING
 
 _UNFIT = (
@@ -21,7 +22,7 @@ _UNFIT = (
 )
 
 
-class ConditionsPart:
+class ConditionsPart(Shows):
     """Sliders and switches; each changes one key of the scene."""
 
     def __init__(self, state: State, worker: Worker) -> None:
@@ -123,11 +124,8 @@ class ConditionsPart:
 
         return changed
 
-    def show_curve(self, found: Found) -> None:
-        """The curve is not here."""
-
-    def show(self, found: Found) -> None:
-        self._correction.offer(found.scene)
+    def show_scene(self, scene: Scene) -> None:
+        self._correction.offer(scene)
         self._show_switches()
 
     def fail(self, error: Error) -> None:

@@ -16,7 +16,7 @@ from asperity.app.design_part import DesignPart
 from asperity.app.parts import chart, part, redraw, redraw_series
 from asperity.app.state import State
 from asperity.app.words import allowed_velocities, in_one_line
-from asperity.app.worker import Found, Worker, in_thread
+from asperity.app.worker import Found, Shows, Worker, in_thread
 from asperity.base.diagnostics import Note, html_items
 from asperity.report.errors import errors_of, solved_contacts
 from asperity.scene.model import Scene, SceneFriction
@@ -24,7 +24,7 @@ from asperity.scene.model import Scene, SceneFriction
 _NOTHING = "There are no notes: input, correction and theory are within their ranges."
 
 
-class ResultPart:
+class ResultPart(Shows):
     """Where everything that was computed is shown."""
 
     def __init__(self, state: State, worker: Worker, refreshed: Callable[[], None]) -> None:

@@ -11,8 +11,9 @@ from asperity.app.parts import chart, part, redraw
 from asperity.app.state import State
 from asperity.app.upload import Upload
 from asperity.app.words import in_one_line
-from asperity.app.worker import Found, Worker, in_thread
+from asperity.app.worker import Shows, Worker, in_thread
 from asperity.base.celsius import temperature_text
+from asperity.scene.model import Scene
 
 _SAID = {
     "frequency": "Frequency is column",
@@ -30,7 +31,7 @@ _DROP = "Drop DMA sweeps or a master curve here, or choose files"
 _NO_TEMPERATURE = "none: a master curve"
 
 
-class RubberPart:
+class RubberPart(Shows):
     """Where the rubber is chosen, its modulus and its shift factors."""
 
     def __init__(self, state: State, worker: Worker) -> None:
@@ -135,11 +136,8 @@ class RubberPart:
         """Show the choices of another scene."""
         self._choice.set_options(list(self._state.rubbers), value=self._state.rubber)
 
-    def show_curve(self, found: Found) -> None:
-        """The curve is not here."""
-
-    def show(self, found: Found) -> None:
-        built = found.scene.built_rubber
+    def show_scene(self, scene: Scene) -> None:
+        built = scene.built_rubber
         if built is self._drawn:
             return
         self._drawn = built
@@ -150,11 +148,8 @@ class RubberPart:
             facts += f", of {n} isotherms that overlap to {100 * residual:.2g} %"
         self._facts.set_text(facts)
         name = f"Storage and loss modulus over the angular frequency, {facts}"
-        redraw(self._chart, rubber_chart(found.scene), name)
-        shifts = shifts_chart(found.scene)
+        redraw(self._chart, rubber_chart(scene), name)
+        shifts = shifts_chart(scene)
         self._shifts.set_visibility(shifts is not None)
         if shifts is not None:
             redraw(self._shifts, shifts, "Shift factors log10 a_T over the temperature")
-
-    def fail(self, error: Error) -> None:
-        """The result says it."""

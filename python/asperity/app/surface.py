@@ -14,7 +14,7 @@ from asperity.app.parts import Quantity, chart, part, redraw
 from asperity.app.state import State
 from asperity.app.upload import Upload
 from asperity.app.words import in_one_line
-from asperity.app.worker import Found, Worker, in_thread
+from asperity.app.worker import Shows, Worker, in_thread
 from asperity.base.arguments import brief
 from asperity.scene.model import Scene
 from asperity.scene.scan import LAY, flat
@@ -26,7 +26,7 @@ _DETREND = {"plane": "tilted", "quadratic": "curved", "offset": "neither"}
 _MOST_PIXELS = 360  # of a side of the picture
 
 
-class SurfacePart:
+class SurfacePart(Shows):
     """Where the surface is chosen, its map and its spectrum."""
 
     def __init__(self, state: State, worker: Worker) -> None:
@@ -190,21 +190,18 @@ class SurfacePart:
         self._choice.set_options(list(self._state.surfaces), value=self._state.surface)
         self._see()
 
-    def show_curve(self, found: Found) -> None:
-        """The curve is not here."""
-
-    def show(self, found: Found) -> None:
-        if found.scene.surface is self._drawn:
+    def show_scene(self, scene: Scene) -> None:
+        if scene.surface is self._drawn:
             return
-        self._drawn = found.scene.surface
-        spectrum = found.scene.spectrum
+        self._drawn = scene.surface
+        spectrum = scene.spectrum
         self._facts.set_text(
             f"rms height {1e6 * spectrum.rms_height:.4g} µm, rms slope {spectrum.rms_slope:.3g}, "
-            f"from {spectrum.q0:.4g} to {spectrum.q1:.4g} 1/m" + _lay_text(found.scene)
+            f"from {spectrum.q0:.4g} to {spectrum.q1:.4g} 1/m" + _lay_text(scene)
         )
         name = f"Roughness spectrum C(q) over the wavenumber; {self._facts.text}"
-        redraw(self._chart, spectrum_chart(found.scene), name)
-        background_tasks.create(self._show_map(found.scene))
+        redraw(self._chart, spectrum_chart(scene), name)
+        background_tasks.create(self._show_map(scene))
 
     async def _show_map(self, scene: Scene) -> None:
         shown = await in_thread(lambda: map_of(scene))
@@ -217,9 +214,6 @@ class SurfacePart:
             self._map.set_source(picture)
             self._map.props(f'alt="Map of the heights; {facts}"')
             self._map_facts.set_text(facts)
-
-    def fail(self, error: Error) -> None:
-        """The result says it."""
 
 
 def _lay_text(scene: Scene) -> str:

@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
-from typing import Any, Protocol, TypeVar
+from typing import Any, TypeVar
 
 from asperity._core import Error
 from asperity.app.computed import with_band, without_heat
@@ -16,14 +16,20 @@ _Made = TypeVar("_Made")
 _QUIET = 0.05  # s without a change, after which all that is slower follows
 
 
-class Shows(Protocol):
-    """A part of the page that shows what was computed."""
+class Shows:
+    """A part of the page that shows what was computed, or some of it."""
 
-    def show_curve(self, found: "Found") -> None: ...
+    def show_curve(self, found: "Found") -> None:
+        """The curve alone, at once."""
 
-    def show(self, found: "Found") -> None: ...
+    def show_scene(self, scene: Scene) -> None:
+        """What was read, whether a curve follows from it or not."""
 
-    def fail(self, error: Error) -> None: ...
+    def show(self, found: "Found") -> None:
+        """All that is known by now."""
+
+    def fail(self, error: Error) -> None:
+        """Why there is no curve."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +90,10 @@ class Worker:
     async def _curve(self, mine: int) -> None:
         checked, tables = self._unless_overtaken(mine), self.state.tables
 
+        scene: Scene | None = None
+
         def compute() -> Found:
+            nonlocal scene
             scene = self.state.load(tables)
             cold = without_heat(scene).friction(checked)
             return Found(tables, scene, cold, cold if scene.heating is None else None)
@@ -95,6 +104,8 @@ class Worker:
             return
         except Error as error:
             self._fail(error)
+            if scene is not None:
+                self._show_scene(scene)
             return
         for part in self._parts:
             part.show_curve(self.found)
@@ -127,8 +138,13 @@ class Worker:
         if self._wanted != mine:
             raise _OvertakenError
         self.found = found
+        self._show_scene(found.scene)
         for part in self._parts:
             part.show(found)
+
+    def _show_scene(self, scene: Scene) -> None:
+        for part in self._parts:
+            part.show_scene(scene)
 
     def _fail(self, error: Error) -> None:
         for part in self._parts:

@@ -9,20 +9,21 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity import Error
 from asperity.app import worker as app_worker
 from asperity.app.computed import with_band
 from asperity.app.state import State
-from asperity.app.worker import Found, Worker
+from asperity.app.worker import Found, Shows, Worker
 from asperity.scene.progress import with_contacts
 
 
-class Page:
+class Page(Shows):
     """Keeps what it is shown."""
 
     def __init__(self) -> None:
         self.curves: list[Found] = []
         self.shown: list[Found] = []
-        self.problems: list[str] = []
+        self.problems: list[Error] = []
 
     def show_curve(self, found: Found) -> None:
         self.curves.append(found)
@@ -30,7 +31,7 @@ class Page:
     def show(self, found: Found) -> None:
         self.shown.append(found)
 
-    def fail(self, problem: str) -> None:
+    def fail(self, problem: Error) -> None:
         self.problems.append(problem)
 
 
