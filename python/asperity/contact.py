@@ -25,7 +25,7 @@ from asperity.correction import CORRECTIONS, Correction
 from asperity.dma import AnyRubber, rubber_of
 from asperity.io.plausible import implausible
 from asperity.results.directions import along_x_notes, once, toward_each
-from asperity.rubber import Rubber, stiffest
+from asperity.rubber import Rubber
 from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.spectrum import Spectrum
 from asperity.sweeps import StrainFactors, strain_core
@@ -316,7 +316,7 @@ def implausible_notes(
     spectrum: Spectrum, rubber: Rubber, pressure: ArrayLike, velocity: ArrayLike
 ) -> tuple[Note, ...]:
     """Return a note where numbers are none of a road, a rubber or a rig."""
-    stiff = stiffest(rubber)
+    stiff = rubber._stiffest
     numbers: dict[str, tuple[ArrayLike, Quantity]] = {
         "rms_height": (spectrum.rms_height, RMS_HEIGHT),
         "rms_slope": (spectrum.rms_slope, SLOPE),

@@ -1,5 +1,6 @@
 """Rubber friction: hysteresis (Eq. 22), adhesion (Eq. 23) and their sum (Eq. 24)."""
 
+from collections.abc import Mapping
 from functools import partial
 from typing import Any, Literal
 
@@ -202,8 +203,7 @@ def friction(
             )
         core_result = _core.friction(*points)  # which refuses what cannot be
         absurd = implausible_notes(surface, solid, p, v)
-        result = _made(core_result, shape, (*solid.notes, *absurd, *along_x))
-        result = _with(result, notes=_size(result), **turned)
+        result = _made(core_result, shape, (*solid.notes, *absurd, *along_x), turned)
         if slopes:
             of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t, None, which)
             result = _with(result, gradients=gradients_of_core(of, shape))
@@ -217,7 +217,7 @@ def friction(
             Argument("heating"), ": needs temperature= and shift=, from which the rubber is heated"
         )
     hot, cold, hottest, area, gain, branches, profile = _core.flash_friction(*points, core, which)
-    without = _made(cold, shape, solid.notes)
+    without = _made(cold, shape, solid.notes, {})
     extras = {
         "cold": _with(
             without, temperature=_shaped(t, shape), notes=(*without.notes, *law_notes(law, t))
@@ -228,8 +228,7 @@ def friction(
         "branches": _shaped(branches, shape),
     }
     absurd = implausible_notes(surface, solid, p, v)
-    result = _made(hot, shape, (*solid.notes, *absurd, *along_x))
-    result = _with(result, notes=_size(result), **turned)
+    result = _made(hot, shape, (*solid.notes, *absurd, *along_x), turned)
     if result.wavenumber is not None:
         extras["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
     length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)
@@ -239,11 +238,6 @@ def friction(
     extras["sliding_length"] = lambda: _shaped(length(), shape)
     extras["notes"] = (*result.notes, *law_notes(law, np.append(t, hottest)))
     return _with(result, **extras)
-
-
-def _size(result: Friction) -> tuple[Note, ...]:
-    """Return the notes of a result, before them one on mu that no rubber has."""
-    return tuple(fatal_first((*small_friction_notes(result.mu), *result.notes)))
 
 
 def _with(result: Friction, **more: Any) -> Friction:
@@ -256,12 +250,16 @@ def _shaped(flat: Any, shape: Shape) -> Any:
     return frozen(array.reshape(shape)) if shape else array.item()
 
 
-def _made(parts: tuple[Any, ...], shape: Shape, of_rubber: tuple[Note, ...]) -> Friction:
-    """Return a result from the core's parts of it, with the notes of the rubber."""
+def _made(
+    parts: tuple[Any, ...], shape: Shape, of_input: tuple[Note, ...], more: Mapping[str, Any]
+) -> Friction:
+    """Return a result from the core's parts of it and more, with the notes of what was given."""
     rows, of_contact, shares = parts
-    notes = tuple(fatal_first((*of_rubber, *of_contact)))
     columns = frozen(rows).reshape(-1, *shape) if shape else rows[:, 0].tolist()
-    fields: dict[str, Any] = dict(zip(COLUMNS, columns, strict=True), notes=notes)
+    fields: dict[str, Any] = dict(zip(COLUMNS, columns, strict=True), **more)
+    fields["notes"] = tuple(
+        fatal_first((*small_friction_notes(fields["mu"]), *of_input, *of_contact))
+    )
     if shares is not None:
         q, density, edges, share = map(frozen, shares)
         fields |= {"wavenumber": q, "dmu_dlnq": density.reshape(*shape, len(q))}

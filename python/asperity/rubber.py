@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Iterable
+from functools import cached_property
 from typing import Any, Literal, Self
 
 import numpy as np
@@ -169,6 +170,11 @@ class PronySeries(_HasModulus, CoreValue):
     moduli: Vector = parameter(unit="Pa")
     relaxation_times: Vector = parameter(unit="s")
 
+    @cached_property
+    def _stiffest(self) -> float:
+        """The largest |E| [Pa] that the data reach."""
+        return self.equilibrium_modulus + float(np.sum(self.moduli))
+
     @classmethod
     def _of(cls, core: Any, **others: Any) -> Self:
         """Make a series from the core's."""
@@ -246,6 +252,11 @@ class MasterCurve(_HasModulus):
         self._set(_core=_core.MasterCurve(*rows, extrapolation_number(self.extrapolation)))
         if self.shift_factors is not None:
             self._set(shift_factors=shift_factors_of(self.shift_factors))
+
+    @cached_property
+    def _stiffest(self) -> float:
+        """The largest |E| [Pa] that the data reach."""
+        return float(np.max(np.hypot(self.storage_modulus, self.loss_modulus)))
 
     @classmethod
     def _of(
@@ -368,10 +379,3 @@ def effective_modulus(
         poisson_ratio_2=poisson_ratio_2,
     )
     return shaped(_core.effective_modulus(*columns), shape)
-
-
-def stiffest(rubber: Rubber) -> float:
-    """The largest |E| [Pa] that a rubber's data reach."""
-    if isinstance(rubber, PronySeries):
-        return rubber.equilibrium_modulus + float(np.sum(rubber.moduli))
-    return float(np.max(np.hypot(rubber.storage_modulus, rubber.loss_modulus)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -35,7 +36,7 @@ Flags = Conversion[ArrayLike | None, NDArray[np.uint8] | None]
 class _Spectrum(Table):
     """What the spectra of a surface can do alike."""
 
-    @property
+    @cached_property
     def rms_slope(self) -> float:
         """Root mean square slope h' = sqrt(2 pi int q^3 C dq) [-]."""
         return float(_core.rms_slope(self._core))
@@ -61,7 +62,7 @@ class _Spectrum(Table):
         """
         return over(wavenumber, "wavenumber", lambda q: _core.density(self._core, q))
 
-    @property
+    @cached_property
     def is_directional(self) -> bool:
         """Whether it knows directions: `harmonics`, or an axis ratio other than 1."""
         return bool(_core.is_directional(self._core))
@@ -290,7 +291,7 @@ class TabulatedSpectrum(Rows, _Spectrum):
         super().__post_init__()
         self._set(q1=self._core.q1)
 
-    @property
+    @cached_property
     def rms_height(self) -> float:
         """Root mean square height sqrt(2 pi int q C dq) [m]."""
         return float(_core.rms_height(self._core))

@@ -63,10 +63,6 @@ Sentence = tuple[str, ...]
 Words = Callable[[Sentence], Sentence]  # says a sentence in words of an edge
 
 
-def _first(sentence: Sentence, kind: type[Phrase]) -> Any:
-    return next((phrase for phrase in sentence if isinstance(phrase, kind)), None)
-
-
 class _Diagnostic:
     """What errors and notes share.
 
@@ -97,13 +93,13 @@ class _Diagnostic:
 
     def _tell(self, sentence: Sentence, where: Sentence, after: Sentence) -> None:
         self.sentence, self.where, self.after = sentence, where, after
-        self.argument = str(_first(sentence, Argument) or "")
-        value = _first(sentence, Value)
-        self.value = None if value is None else str(value)
-        if value is not None and len(value.numbers) == 1:
-            self.value = value.numbers[0]
-        self.unit = "" if value is None else value.tag
         kinds = [type(phrase) for phrase in sentence]
+        self.argument = str(sentence[kinds.index(Argument)]) if Argument in kinds else ""
+        self.value, self.unit = None, ""
+        if Value in kinds:
+            value: Any = sentence[kinds.index(Value)]
+            self.value = value.numbers[0] if len(value.numbers) == 1 else str(value)
+            self.unit = value.tag
         start = kinds.index(Must) + 1 if Must in kinds else len(kinds)
         end = kinds.index(Advice, start) if Advice in kinds[start:] else len(kinds)
         self.allowed = "".join(sentence[start:end])
@@ -223,9 +219,10 @@ class Note(_Diagnostic, str):
         note._tell(sentence, about, after)
         if isinstance(next_step, str):
             next_step = (next_step,) if next_step else ()
-        advice = _first(sentence, Advice)
-        of_code = (kind.next_step,) if kind.next_step else ()
-        note.next_step_phrases = next_step or ((advice,) if advice else of_code)
+        advice = tuple([one for one in sentence if type(one) is Advice][:1])
+        note.next_step_phrases = (
+            next_step or advice or ((kind.next_step,) if kind.next_step else ())
+        )
         note.next_step = "".join(note.next_step_phrases)
         return note
 

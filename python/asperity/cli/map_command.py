@@ -27,7 +27,6 @@ from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_output, write_files
 from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
-from asperity.rubber import stiffest
 from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
 from asperity.scene.model import Scene
 from asperity.scene.progress import with_contacts
@@ -133,7 +132,7 @@ def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
 def _check_sides(args: Namespace, scene: Scene) -> None:
     if args.pressure is not None:
         plausible.check("--pressure", args.pressure, quantities.PRESSURE)
-        plausible.check_load("--pressure", args.pressure, stiffest(scene.rubber))
+        plausible.check_load("--pressure", args.pressure, scene.rubber._stiffest)
     if args.velocity is not None:
         plausible.check("--velocity", args.velocity, quantities.VELOCITY)
 

@@ -225,7 +225,7 @@ COLUMNS = tuple(name for name, one in Friction.__dataclass_fields__.items() if o
 def small_friction_notes(mu: ArrayLike) -> tuple[Note, ...]:
     """Return a note where mu is below a tenth of what a lubricated bearing has at all points, but
     for a rubber without loss, which has none."""
-    largest = float(np.max(mu, initial=0))
+    largest = mu if type(mu) is float else float(np.max(mu, initial=0))
     if not 0 < largest < _SMALLEST:
         return ()
     about = "mu is ", Value(f"{largest:.3g}", (largest,)), f" at most, below {_SMALLEST:g}"

@@ -31,7 +31,7 @@ from asperity.io.fields import (
 from asperity.io.read_dma import read_isotherms
 from asperity.io.read_master_curve import read_master_curve
 from asperity.prony_fit import PronyExtrapolation, PronyFit, fit_prony
-from asperity.rubber import MasterCurve, PronySeries, Rubber, stiffest
+from asperity.rubber import MasterCurve, PronySeries, Rubber
 from asperity.scene.shift import (
     BUILD,
     TEMPERATURE,
@@ -184,7 +184,7 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
         with rename_in_errors(path, names_of("rubber", _PRONY)):
             rubber = PronySeries(**arguments(values, _PRONY))
         where = "[rubber] equilibrium_modulus_pa and moduli_pa together"
-        plausible.check(where, stiffest(rubber), quantities.MODULUS, path=path)
+        plausible.check(where, rubber._stiffest, quantities.MODULUS, path=path)
     if shifts is None:
         for key in ("temperature_k", "reference_temperature_k"):
             if key in values:

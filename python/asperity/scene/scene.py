@@ -24,7 +24,6 @@ from asperity.io.fields import (
 from asperity.io.files import check_file
 from asperity.io.toml import read_toml_text
 from asperity.io.typed import Typed, typed_in
-from asperity.rubber import stiffest
 from asperity.scene.celsius import celsius_in_errors
 from asperity.scene.heat import LISTED, check_heated, directions_of, temperatures_of
 from asperity.scene.keys import CONDITIONS, POINTS, SOLVER, UNCERTAINTY
@@ -155,7 +154,7 @@ def build_scene(
             )
     rubbers = [builders.rubber(path, tables["rubber"], t) for t in temperatures]
     rubber = rubbers[0]
-    hardest = stiffest(rubber.rubber)
+    hardest = rubber.rubber._stiffest
     plausible.check_load("[conditions] pressure_pa", points["pressure_pa"], hardest, path=path)
     inputs = {
         "surface": surface.values,

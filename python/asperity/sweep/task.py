@@ -14,7 +14,6 @@ import numpy as np
 from asperity._core import Error, InvalidInput, NotConverged, OutOfRange, __version__
 from asperity.friction import Friction
 from asperity.io import plausible
-from asperity.rubber import stiffest
 from asperity.scene.model import Scene
 from asperity.scene.scene import Builders, build_scene
 from asperity.sweep.axes import PRESSURE, VELOCITY, Axis, with_values
@@ -210,7 +209,7 @@ def _scene(
         scene = build_scene(path, placed, for_friction=True, builders=builders)
         with suppress(InvalidInput):  # of some of the points, which fail on their own
             name = "[conditions] pressure_pa"
-            plausible.check_load(name, highest, stiffest(scene.rubber), path=path)
+            plausible.check_load(name, highest, scene.rubber._stiffest, path=path)
     outcome.note((*notes, *scene.notes), number)
     return scene
 
@@ -224,7 +223,7 @@ def _results(
     points fail, and with which message, does not depend on how the sweep was cut.
     """
     pending = [slice(0, pressure.size)]
-    hardest = stiffest(scene.rubber)
+    hardest = scene.rubber._stiffest
     while pending:
         part = pending.pop()
         try:
