@@ -30,13 +30,18 @@ double AngularPolynomials::fit(const std::array<double, order>& value, std::size
   return std::fabs(series[order - 1]) + std::fabs(series[order - 2]);
 }
 
-/// I1 and I2 are analytic in t = (w - low) / (high - low), or its root where the panel begins at a branch point. A part
-/// covers t up to `upper`.
+/// I1 and I2 are analytic in t = (w - origin) / length, or its root where the panel begins at a branch point. A part
+/// covers frequencies from `low` up to `high`; the polynomials' variable is scale t + shift.
 struct AngularTable::Part {
+  double low, high;
+  double origin, per_length, scale, shift;
   bool root;
-  double upper, scale, shift;  // the polynomials' variable is scale t + shift
-  bool has_outside;            // whether more than 1e-7 of I1 comes from outside the measured range
+  bool has_outside;  // whether more than 1e-7 of I1 comes from outside the measured range
   AngularPolynomials all, outside;
+  [[nodiscard]] double place(double w) const {
+    const double t = (w - origin) * per_length;
+    return scale * (root ? std::sqrt(t) : t) + shift;
+  }
 };
 
 AngularTable::AngularTable(std::span<const ModulusPiece> pieces)
@@ -65,12 +70,13 @@ const AngularTable::Parts& AngularTable::parts(std::size_t panel) const {
 void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts) const {
   const double low = sums_.edges()[panel], high = sums_.edges()[panel + 1];
   constexpr double tolerance = 1e-12, of_outside = 1e-10, least_outside = 1e-7;
-  Part part{sums_.at_branch(panel), t1, 2 / (t1 - t0), -(t1 + t0) / (t1 - t0), false, {}, {}};
+  const bool root = sums_.at_branch(panel);
+  const auto frequency = [&](double t) { return t == 1 ? high : low + (high - low) * (root ? t * t : t); };
+  Part part{
+      frequency(t0), frequency(t1), low, 1 / (high - low), 2 / (t1 - t0), -(t1 + t0) / (t1 - t0), root, false, {}, {}};
   double w[order];
-  for (std::size_t i = 0; i < order; ++i) {
-    const double t = (t0 + t1 + AngularPolynomials::zeros().point[i] * (t1 - t0)) / 2;
-    w[i] = low + (high - low) * (part.root ? t * t : t);
-  }
+  for (std::size_t i = 0; i < order; ++i)
+    w[i] = frequency((t0 + t1 + AngularPolynomials::zeros().point[i] * (t1 - t0)) / 2);
   const AngularSums::WithOutside at = sums_.at(w, panel);
   for (std::size_t i = 0; i < order; ++i) part.has_outside |= at.outside.i1[i] > least_outside * at.all.i1[i];
   const auto fit = [&](AngularPolynomials& to, const AngularSums::Values& value, double allowed) {
@@ -92,61 +98,73 @@ void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts)
   }
 }
 
-/// The panel of a frequency, if it is another than that of the one before.
-void AngularTable::step(double at, Panel& panel) const {
+/// The part of a frequency that is not in the part before, whose panel is `panel`.
+const AngularTable::Part& AngularTable::next(double at, std::size_t& panel) const {
   const std::span<const double> edges = sums_.edges();
   constexpr std::size_t near = 4;
-  std::size_t p = panel.index;
-  if (at >= panel.high && at < edges[std::min(p + near, edges.size() - 1)]) {
-    while (at >= edges[p + 1]) ++p;
+  if (at >= edges[panel] && at < edges[std::min(panel + near, edges.size() - 1)]) {
+    while (at >= edges[panel + 1]) ++panel;
   } else {
     const std::uint32_t* const first = &first_[bucket(at) - bucket(edges[0])];
     const auto above = std::upper_bound(edges.begin() + first[0] + 1, edges.begin() + first[1] + 1, at);
-    p = static_cast<std::size_t>(above - edges.begin()) - 1;
+    panel = static_cast<std::size_t>(above - edges.begin()) - 1;
   }
-  panel = {p, edges[p], edges[p + 1], parts(p).data()};
-}
-
-AngularTable::Place AngularTable::find(double w, Panel& panel) const {
-  const double at = std::clamp(w, lowest_, highest_);
-  if (!(at >= panel.low && at < panel.high)) step(at, panel);
-  const double fraction = (at - panel.low) / (panel.high - panel.low);
-  const Part* part = panel.parts;
-  const double t = part->root ? std::sqrt(fraction) : fraction;
-  while (t > part->upper) ++part;
-  return {part, part->scale * t + part->shift};
+  const Parts& of = parts(panel);
+  std::size_t i = 0;
+  while (i + 1 < of.size() && at >= of[i].high) ++i;
+  return of[i];
 }
 
 AngularIntegrals AngularTable::operator()(double w) const {
-  Panel panel;
-  const auto [part, u] = find(w, panel);
-  const Pair all = part->all(u), outside = part->outside(u);
-  return {all[0], all[1], std::clamp(outside[0], 0.0, all[0]), std::clamp(outside[1], 0.0, all[1])};
+  AngularIntegrals at{};
+  (void)(*this)({&w, 1}, &at.i1, &at.i2, nullptr);
+  std::size_t panel = 0;
+  const double known = std::clamp(w, lowest_, highest_);
+  const Part& part = next(known, panel);
+  const Pair outside = part.outside(part.place(known));
+  at.i1_outside = std::clamp(outside[0], 0.0, at.i1);
+  at.i2_outside = std::clamp(outside[1], 0.0, at.i2);
+  return at;
 }
 
-bool AngularTable::operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const {
+AngularTable::Any AngularTable::operator()(std::span<const double> w, double* i1, double* i2,
+                                           double* i1_outside) const {
   constexpr std::size_t together = 8;  // polynomials, whose terms wait for each other
-  bool any_outside = false;
-  Panel panel;
+  Any any;
+  std::size_t panel = 0;
+  const Part* of = nullptr;
+  double low = 0, high = 0;  // of the part: neighbours are asked for one after the other
   for (std::size_t from = 0; from < w.size(); from += together) {
     const std::size_t n = std::min(together, w.size() - from);
-    Place at[together];
-    for (std::size_t i = 0; i < n; ++i) at[i] = find(w[from + i], panel);
-    for (std::size_t i = n; i < together; ++i) at[i] = at[0];
+    const Part* part[together];
+    double u[together];
+    for (std::size_t i = 0; i < together; ++i) {
+      double at = w[from + std::min(i, n - 1)];
+      if (!(at >= low && at < high)) {
+        if (!(at >= lowest_ && at <= highest_)) {
+          any.beyond = true;
+          at = at > highest_ ? highest_ : lowest_;
+        }
+        of = &next(at, panel);
+        low = of->low;
+        high = of->high;
+        any.outside |= of->has_outside;
+      }
+      part[i] = of;
+      u[i] = of->place(at);
+    }
     Pair sum[together];
-    for (std::size_t i = 0; i < together; ++i) sum[i] = at[i].part->all.coefficient[order - 1];
+    for (std::size_t i = 0; i < together; ++i) sum[i] = part[i]->all.coefficient[order - 1];
     for (std::size_t k = order - 1; k-- > 0;)
-      for (std::size_t i = 0; i < together; ++i) sum[i] = sum[i] * at[i].u + at[i].part->all.coefficient[k];
+      for (std::size_t i = 0; i < together; ++i) sum[i] = sum[i] * u[i] + part[i]->all.coefficient[k];
     for (std::size_t i = 0; i < n; ++i) {
       i1[from + i] = sum[i][0];
       i2[from + i] = sum[i][1];
-      const Part& part = *at[i].part;
       if (i1_outside)
-        i1_outside[from + i] = part.has_outside ? std::clamp(part.outside(at[i].u)[0], 0.0, sum[i][0]) : 0;
-      any_outside |= part.has_outside;
+        i1_outside[from + i] = part[i]->has_outside ? std::clamp(part[i]->outside(u[i])[0], 0.0, sum[i][0]) : 0;
     }
   }
-  return any_outside;
+  return any;
 }
 
 }  // namespace asperity

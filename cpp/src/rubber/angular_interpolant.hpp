@@ -41,26 +41,18 @@ class AngularTable {
 
   /// At `w`, which may miss the ends of the pieces by its rounding.
   [[nodiscard]] AngularIntegrals operator()(double w) const;
-  /// At each of `w`; true if more than 1e-7 of an I1 comes from outside of the measured range. `i1_outside` may be
-  /// null.
-  bool operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const;
+  /// At each of `w`; of any of them, whether more than 1e-7 of I1 comes from outside of the measured range, and whether
+  /// it is beyond the pieces, where the values at their ends are taken. `i1_outside` may be null.
+  struct Any {
+    bool outside = false, beyond = false;
+  };
+  Any operator()(std::span<const double> w, double* i1, double* i2, double* i1_outside) const;
   [[nodiscard]] const AngularSums& sums() const { return sums_; }
 
  private:
   struct Part;
-  struct Place {
-    const Part* part;
-    double u;
-  };
   using Parts = std::vector<Part>;
-  struct Panel {
-    std::size_t index = 0;
-    double low = 0, high = 0;
-    const Part* parts = nullptr;
-  };
-  /// `panel` is that of the frequency before: neighbours are asked for one after the other.
-  [[nodiscard]] Place find(double w, Panel& panel) const;
-  void step(double at, Panel& panel) const;
+  [[nodiscard]] const Part& next(double at, std::size_t& panel) const;
   [[nodiscard]] const Parts& parts(std::size_t panel) const;
   void append(std::size_t panel, double t0, double t1, Parts& parts) const;
 

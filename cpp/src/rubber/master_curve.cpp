@@ -146,12 +146,9 @@ bool MasterCurve::angular_integrals(std::span<const double> w, std::span<double>
                                     std::span<double> i1_outside) const {
   require_room(w, i1, i2);
   if (!i1_outside.empty()) require_same_size("i1_outside", i1_outside.size(), "angular_frequency", w.size());
-  bool all_known = true;
-  const double lowest = table_->knots.front(), highest = table_->knots.back();
-  for (const double one : w) all_known &= one >= lowest && one <= highest;
-  if (!all_known)
-    for (const double one : w) table_->check(one);
-  return table_->angular(w, i1.data(), i2.data(), i1_outside.empty() ? nullptr : i1_outside.data());
+  const auto any = table_->angular(w, i1.data(), i2.data(), i1_outside.empty() ? nullptr : i1_outside.data());
+  for (std::size_t i = 0; any.beyond && i < w.size(); ++i) table_->check(w[i]);
+  return any.outside;
 }
 
 void MasterCurve::loss_part(std::span<const double> w, std::span<double> part) const {

@@ -138,21 +138,24 @@ bool PronySeries::angular_integrals(std::span<const double> w, std::span<double>
   require_room(w, i1, i2);
   if (!i1_outside.empty()) require_same_size("i1_outside", i1_outside.size(), "angular_frequency", w.size());
   const std::size_t n = w.size();
-  const double fastest = n == 0 ? 0 : *std::ranges::max_element(w);
-  for (const double one : w) {
-    require_not_negative("angular_frequency", one);
-    check_fitted(one);
+  const double fastest = n == 0 ? 0 : std::ranges::max(w);
+  const bool limited = fit_ && !fit_->extrapolated;
+  const double lowest = limited ? fit_->range.lowest : 0, highest = limited ? fit_->range.highest : HUGE_VAL;
+  std::size_t known = 0;
+  for (const double one : w) known += static_cast<std::size_t>((one >= lowest) & (one <= highest));
+  for (std::size_t i = 0; known < n && i < n; ++i) {
+    require_not_negative("angular_frequency", w[i]);
+    check_fitted(w[i]);
   }
   check_frequency(fastest);
-  if (n % lanes != 0 || !(fastest * longest_ < 1e150)) {
-    for (std::size_t i = 0; i < n; ++i) {
-      const AngularIntegrals one = angular_integrals(w[i]);
-      i1[i] = one.i1;
-      i2[i] = one.i2;
-    }
-  } else {
-    kernels().prony({moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_}, w.data(), n,
-                    i1.data(), i2.data());
+  // in lanes but for a rest, and for frequencies whose squares overflow
+  const std::size_t whole = fastest * longest_ < 1e150 ? n - n % lanes : 0;
+  kernels().prony({moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_}, w.data(), whole,
+                  i1.data(), i2.data());
+  for (std::size_t i = whole; i < n; ++i) {
+    const AngularIntegrals one = angular_integrals(w[i]);
+    i1[i] = one.i1;
+    i2[i] = one.i2;
   }
   if (!fit_) return false;
   bool any = false;

@@ -64,6 +64,7 @@ class ContactGrid {
   [[nodiscard]] const Eigen::VectorXd& weight() const { return weight_; }
   /// G at q_m as a sum over I2 of all nodes.
   [[nodiscard]] const Eigen::VectorXd& macro_weight() const { return macro_weight_; }
+  [[nodiscard]] bool has_macro() const { return options_.macro_wavenumber > 0; }
   /// On pieces the last nodes are those of that sum: their harmonics, a row a node, none without directions.
   struct Harmonics {
     std::vector<double> cosine, sine;

@@ -73,23 +73,21 @@ double LevelSolver::beside_knots(const Level& level, const ContactSums& sums) {
   const double factor = of_difference * stiffening_ * stiffening_ / 8, by_kappa = 1 / sums.slope;
   of_i1_.resize(n);
   of_i2_.resize(n);
-  const double *const i1 = (rings_of_ ? level.mean_i1 : level.i1).data(), *const i2 =
-                                                                              (rings_of_ ? level.mean_i2 : level.i2)
-                                                                                  .data();
-  for (std::size_t i = 2; i + 2 < n; ++i) {
-    double of_i1 = 0, of_i2 = 0;
-    for (std::size_t k = 0; k < 5; ++k) {
-      of_i1 += difference[k][i] * i1[i + k - 2];
-      of_i2 += difference[k][i] * i2[i + k - 2];
-    }
-    const double along = factor * level.rings.most(i, needed_.count);
-    of_i1_[i] = std::fabs(along * of_i1);
-    of_i2_[i] = std::fabs(along * of_i2);
-  }
+  const auto differences = [&](const std::vector<double>& of, std::vector<double>& result) {
+    const double *const a = difference[0].data(), *const b = difference[1].data(), *const c = difference[2].data(),
+                        *const d = difference[3].data(), *const e = difference[4].data(), *const f = of.data();
+    double* const to = result.data();
+    for (std::size_t i = 2; i + 2 < n; ++i)
+      to[i] =
+          factor * std::fabs((a[i] * f[i - 2] + b[i] * f[i - 1]) + c[i] * f[i] + (d[i] * f[i + 1] + e[i] * f[i + 2]));
+    for (std::size_t i = 2; rings_of_ && i + 2 < n; ++i) to[i] *= level.rings.most(i, needed_.count);
+  };
+  differences(rings_of_ ? level.mean_i1 : level.i1, of_i1_);
+  differences(rings_of_ ? level.mean_i2 : level.i2, of_i2_);
   const double kappa_on_mu = std::fabs(sums.friction_slope) * by_kappa,
                kappa_on_area = std::fabs(sums.share_slope) * by_kappa;
   const double friction_share = sums.friction > 0 ? 1 / sums.friction : 0, variance_share = 1 / sums.variance;
-  const double g1 = level.theory->unit_g();
+  const double g1 = level.theory->unit_g(), per_area = 1 / (2 * g1);
   const double *const stress = level.theory->stress().data(), *const g = level.theory->node_g().data(),
                       *const weight = level.grid->weight().data(), *const ratio = level.theory->ratio().data();
   double variance_behind = 1 / g1, friction_behind = 0, of_mu = 0, of_area = 0;
@@ -100,7 +98,7 @@ double LevelSolver::beside_knots(const Level& level, const ContactSums& sums) {
     friction_behind += by_g * ratio[i] * friction_share;
     const double on_variance = of_i2 * (r * variance_share + variance_behind);
     const double on_mu = of_i1 * r * friction_share + of_i2 * friction_behind + kappa_on_mu * on_variance;
-    const double on_area = kappa_on_area * on_variance + of_i2 / (2 * g1);
+    const double on_area = kappa_on_area * on_variance + of_i2 * per_area;
     of_mu += on_mu * on_mu;
     of_area += on_area * on_area;
   }

@@ -74,23 +74,28 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surf
     ++first_level_;
 }
 
-/// How many harmonics matter, the stops of panels, and the edges of contacts beside pieces.
+/// How many harmonics matter, and the edges of contacts beside pieces.
 void LevelSolver::begin(double velocity) {
   if (velocity == velocity_) return;
   velocity_ = velocity;
   if (rings_of_) take_harmonics();
   if (window_ && !pieces_.empty())
     edges_ = edges_of_(velocity, window_->end(), 1, partial_contact::tail_end, needed_.count);
-  if (panels_.empty()) return;
+}
+
+/// The stops of panels.
+void LevelSolver::begin_panels() {
+  if (velocity_ == panels_velocity_) return;
+  panels_velocity_ = velocity_;
   std::vector<double> stops;
   const double end = surface_.back().b,
                last = window_ ? std::fmax(end, window_->end() * partial_contact::tail_end) : end;
   const auto add = [&](double q) {
     if (q > surface_.front().a && q < last) stops.push_back(q);
   };
-  for (const double w : options_.stops) add(w / velocity);
+  for (const double w : options_.stops) add(w / velocity_);
   if (const auto* const curve = std::get_if<MasterCurve>(&waves_.rubber()))
-    for (const double w : curve->knots()) add(w / velocity);
+    for (const double w : curve->knots()) add(w / velocity_);
   for (const double q : waves_.kinks()) add(q);
   if (waves_.softening()) add(waves_.softening()->end());
   std::ranges::sort(stops);
@@ -100,7 +105,7 @@ void LevelSolver::begin(double velocity) {
     stops_ = std::move(stops);
   }
   if (!window_ || !known_) return;
-  const double from = known_->highest / velocity;
+  const double from = known_->highest / velocity_;
   const auto held_from = from > window_->end() && from < last ? std::optional(from) : std::nullopt;
   if (held_from == held_from_) return;
   held_from_ = held_from;
@@ -128,8 +133,8 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   }
   level.frequency.resize(n);
   for (std::size_t i = 0; i < n; ++i) level.frequency[i] = velocity_ * grid.wavenumber()[i];
-  if (known_)
-    for (double& w : level.frequency) w = std::fmin(w, known_->highest);
+  if (known_ && !grid.pieces())
+    for (double& w : level.frequency) w = std::min(w, known_->highest);
   const std::span<double> i1{level.i1.data(), n}, i2{level.i2.data(), n};
   const bool asked = analytic_ ? first && known_in_part_ : first || any_outside_;
   if (asked) level.i1_outside.resize(n);
@@ -274,6 +279,7 @@ bool LevelSolver::solve(double pressure, double velocity, double shift) {
   solved_ = nullptr;
   if (!pieces_.empty() && solve_on(pieces_, pressure, shift)) return true;
   if (panels_.empty()) return false;
+  begin_panels();
   if (solve_on(panels_, pressure, shift)) return true;
   throw NotConverged("mu_H = " + show(hysteresis_.value) + " with relative error " + show(error_) + " on " +
                      std::to_string(panels_.back().grid->size()) + " nodes where " + argument("rtol") + " = " +

@@ -68,6 +68,7 @@ class LevelSolver {
   /// Whether the modulus has kinks over ln q.
   [[nodiscard]] bool kinks() const { return !analytic_ || waves_.softening(); }
   void begin(double velocity);
+  void begin_panels();
   void take_harmonics();
   [[nodiscard]] bool solve_on(Levels& levels, double pressure, double shift);
   Level& at_velocity(Levels& levels, std::size_t number);
@@ -91,14 +92,14 @@ class LevelSolver {
   const ContactModel& model_;
   Options options_;
   double stiffening_;
-  std::optional<RoughnessWindow> window_;    // with PartialContact
-  Levels pieces_, panels_;                   // none where they do not serve
-  std::size_t first_level_ = 1;              // of panels
-  std::optional<RoughnessCells> from_next_;  // to the first level of panels, where the modulus is analytic
-  std::vector<double> stops_;                // of panels at the velocity [1/m]
-  std::optional<double> held_from_;          // where beyond the end of the roughness the modulus is not known [1/m]
-  double velocity_ = 0;
-  Directions::Needed needed_{};  // of the harmonics of rings
+  std::optional<RoughnessWindow> window_;      // with PartialContact
+  Levels pieces_, panels_;                     // none where they do not serve
+  std::size_t first_level_ = 1;                // of panels
+  std::optional<RoughnessCells> from_next_;    // to the first level of panels, where the modulus is analytic
+  std::vector<double> stops_;                  // of panels at the velocity [1/m]
+  std::optional<double> held_from_;            // where beyond the end of the roughness the modulus is not known [1/m]
+  double velocity_ = 0, panels_velocity_ = 0;  // of the point, and of the last on panels
+  Directions::Needed needed_{};                // of the harmonics of rings
   Edges edges_of_;
   EdgeIntegrals edges_;
   std::optional<FrequencyRange> known_;

@@ -49,20 +49,20 @@ Edges::Edges(const Excitation& waves, double rtol)
   if (const auto known = known_range(waves.rubber())) highest_ = known->highest;
 }
 
-EdgeIntegrals Edges::on_piece(const Place& place, const Piece& piece) const {
+Edges::Piece Edges::piece(const Place& place, double lower, double upper) const {
   const LegendreRule& rule = legendre_rule(nodes);
-  const double middle = (piece.lower + piece.upper) / 2, half = (piece.upper - piece.lower) / 2;
+  const double middle = (lower + upper) / 2, half = (upper - lower) / 2;
   const double frequency = place.velocity * place.q_e;
   std::array<double, nodes> w, x, q, i1, i2, weight, across{};
-  for (std::size_t k = 0; k < nodes; ++k) w[k] = frequency * std::exp(middle + half * rule.node[k]);
   for (std::size_t k = 0; k < nodes; ++k) {
-    x[k] = w[k] / frequency;
+    x[k] = std::exp(middle + half * rule.node[k]);
     q[k] = place.q_e * x[k];
-    w[k] = std::fmin(w[k], highest_);
+    w[k] = std::min(frequency * x[k], highest_);
   }
   (void)waves().of_waves(w, q, i1, i2, {}, place.harmonics, across);
   for (std::size_t k = 0; k < nodes; ++k) weight[k] = half * factor(i2[k] / place.i2_at_end, x[k]);
-  EdgeIntegrals result;
+  Piece made{lower, upper, {}};
+  EdgeIntegrals& result = made.value;
   double tail[LegendreRule::kept];
   for (std::size_t k = 0; k < nodes; ++k) {
     i1[k] *= weight[k];
@@ -75,7 +75,7 @@ EdgeIntegrals Edges::on_piece(const Place& place, const Piece& piece) const {
   loops.add_up(rule, i2.data(), &result.i2, tail);
   result.i2_error = rule_error(tail);
   if (frequency * std::exp(middle) > highest_) result.i1_outside = result.i1;
-  return result;
+  return made;
 }
 
 /// By the Gauss rule of four nodes in x^-3.
@@ -98,13 +98,16 @@ double Edges::outside(const Place& place, double lower, double upper) const {
 /// Where the modulus changes its formula, in ln x.
 std::vector<double> Edges::stops(const Place& place, double lower, double upper) const {
   std::vector<double> result;
+  const double frequency = place.velocity * place.q_e;
   const auto add = [&](double at) {
     if (at > lower && at < upper) result.push_back(at);
   };
   if (const auto* const curve = std::get_if<MasterCurve>(&waves_.rubber()))
-    for (const double w : curve->knots()) add(std::log(w / (place.velocity * place.q_e)));
+    for (auto knot = std::ranges::upper_bound(curve->knots(), frequency * std::exp(lower));
+         knot != curve->knots().end() && *knot < frequency * std::exp(upper); ++knot)
+      add(std::log(*knot / frequency));
   for (const double q : waves_.stops()) add(std::log(q / place.q_e));
-  if (waves_.softening() || waves_.directions()) add(std::log(highest_ / (place.velocity * place.q_e)));
+  if (waves_.softening() || waves_.directions()) add(std::log(highest_ / frequency));
   std::ranges::sort(result);
   return result;
 }
@@ -130,36 +133,32 @@ EdgeIntegrals Edges::operator()(double velocity, double q_e, double lower, doubl
   if (!(to > from)) return held;
   if (limited_ && known_to > from) held.i1_outside += outside(place, std::exp(from), std::exp(known_to));
   std::vector<Piece> pieces;
+  pieces.reserve(32);
   const auto add_pieces_to = [&](double end) {
     const double count = std::ceil((end - from) / longest), begin = from;
     for (double k = 1; k <= count; ++k) {
       const double next = k == count ? end : begin + (end - begin) * (k / count);
-      pieces.push_back({from, next});
+      pieces.push_back(piece(place, from, next));
       from = next;
     }
   };
   for (const double at : stops(place, from, to))
     if (at > from) add_pieces_to(at);
   add_pieces_to(to);
-  std::vector<EdgeIntegrals> values;
-  for (const Piece& piece : pieces) values.push_back(on_piece(place, piece));
   // halves of a piece take the place of it until the error of the sum is small enough, or that of rounding
   constexpr std::size_t most_pieces = 20000;
   for (;;) {
     EdgeIntegrals sum = held;
-    for (const EdgeIntegrals& value : values) add(sum, value);
+    for (const Piece& one : pieces) add(sum, one.value);
     const double allowed1 = rtol_ * sum.i1, allowed2 = rtol_ * sum.i2;
     if ((sum.i1_error <= allowed1 && sum.i2_error <= allowed2) || pieces.size() > most_pieces) return sum;
     const auto share = 0.5 / static_cast<double>(pieces.size());
-    const std::size_t count = pieces.size();
-    for (std::size_t i = 0; i < count; ++i) {
-      if (values[i].i1_error <= share * allowed1 && values[i].i2_error <= share * allowed2) continue;
+    for (std::size_t i = 0, count = pieces.size(); i < count; ++i) {
       const Piece whole = pieces[i];
+      if (whole.value.i1_error <= share * allowed1 && whole.value.i2_error <= share * allowed2) continue;
       const double middle = (whole.lower + whole.upper) / 2;
-      pieces[i] = {whole.lower, middle};
-      values[i] = on_piece(place, pieces[i]);
-      pieces.push_back({middle, whole.upper});
-      values.push_back(on_piece(place, pieces.back()));
+      pieces[i] = piece(place, whole.lower, middle);
+      pieces.push_back(piece(place, middle, whole.upper));
     }
   }
 }

@@ -29,13 +29,14 @@ class Edges {
  private:
   struct Piece {
     double lower, upper;  // in ln x
+    EdgeIntegrals value;
   };
   struct Place {
     double velocity, q_e, i2_at_end;
     std::size_t harmonics;
   };
   [[nodiscard]] double outside(const Place& place, double lower, double upper) const;
-  [[nodiscard]] EdgeIntegrals on_piece(const Place& place, const Piece& piece) const;
+  [[nodiscard]] Piece piece(const Place& place, double lower, double upper) const;
   [[nodiscard]] std::vector<double> stops(const Place& place, double lower, double upper) const;
   [[nodiscard]] const Excitation& waves() const { return unlimited_waves_ ? *unlimited_waves_ : waves_; }
 

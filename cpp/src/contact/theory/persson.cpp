@@ -21,7 +21,7 @@ void Theory::take(const NodeModulus& modulus) {
   i2_ = Eigen::Map<const VectorXd>(modulus.i2.data(), n);
   ratio_ = Eigen::Map<const VectorXd>(modulus.i1.data(), n).cwiseQuotient(i2_);
   grid_.integrate(i2_, g_, g_edge_);
-  g_macro_ = grid_.macro_weight().dot(i2_);
+  if (grid_.has_macro()) g_macro_ = grid_.macro_weight().dot(i2_);
 }
 
 void Theory::add_up(const ModulusSlopes& along, GSlopes& slopes) const {
