@@ -1,6 +1,7 @@
 """Errors and notes as the page says them: no names of Python, few digits."""
 
 from asperity.base.diagnostics import Advice, Argument, Error, Sentence, Value
+from asperity.io.fields import inside
 
 _ARGUMENTS = {"slope_cutoff": "the wanted rms slope"}
 _ADVICE = {
@@ -15,6 +16,8 @@ def in_words(sentence: Sentence) -> Sentence:
     for phrase in sentence:
         if isinstance(phrase, Argument):
             phrase = phrase.saying(_ARGUMENTS.get(phrase, phrase))
+        elif isinstance(phrase, Advice) and phrase.tag == "allowed-velocities":
+            phrase = phrase.saying("from {:g} to {:g} m/s".format(*inside(phrase)))
         elif isinstance(phrase, Advice):
             phrase = phrase.saying(_ADVICE.get(phrase.tag, phrase))
         elif isinstance(phrase, Value) and len(phrase.numbers) == 1:
@@ -32,6 +35,5 @@ def allowed_velocities(error: Error) -> tuple[float, float] | None:
     """Velocities [m/s] that an error offers, both within what it allows."""
     for phrase in error.sentence:
         if isinstance(phrase, Advice) and phrase.tag == "allowed-velocities":
-            low, high = phrase.numbers
-            return float(f"{1.01 * low:.3g}"), float(f"{0.99 * high:.3g}")
+            return inside(phrase)
     return None

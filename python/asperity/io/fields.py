@@ -348,8 +348,18 @@ def in_keys(sentence: Sentence, names: Mapping[str, str]) -> Sentence:
             phrase = phrase.saying(names.get(phrase, phrase))
         elif isinstance(phrase, Advice) and phrase.tag in _ADVICE:
             phrase = phrase.saying(_ADVICE[phrase.tag].format(*phrase.numbers))
+        elif isinstance(phrase, Advice) and phrase.tag == "allowed-velocities":
+            low, high = inside(phrase)
+            line = f"velocity_m_s = {{ from = {low:g}, to = {high:g}, points = 31 }}"
+            phrase = phrase.saying(f"{phrase}, as in {line}," if low < high else phrase)
         said.append(phrase)
     return tuple(said)
+
+
+def inside(offer: Advice) -> tuple[float, float]:
+    """Short numbers within the two of an offer."""
+    low, high = offer.numbers
+    return float(f"{1.01 * low:.3g}"), float(f"{0.99 * high:.3g}")
 
 
 @contextmanager

@@ -181,9 +181,7 @@ def test_beyond_the_isotherms_by_their_law(
 
 def test_the_scene_of_the_readme_takes_files_of_ones_own(folder: Path) -> None:
     (scene,) = blocks("README.md", "toml")
-    assert "from = 1e-3, to = 1, points = 31" in scene
-    known = scene.replace("from = 1e-3, to = 1,", "from = 1e-4, to = 1e-3,")  # by these sweeps
-    (folder / "own.toml").write_text(known, encoding="utf-8")
+    (folder / "own.toml").write_text(scene, encoding="utf-8")
     curves = load_scene(folder / "own.toml").friction()
     assert curves.mu.shape == (2, 31)
     assert np.all(curves.mu > 0)

@@ -212,10 +212,12 @@ def test_one_end_of_the_spectrum_is_offered_that_serves_all_velocities(folder: P
         message,
     )
     assert both is not None, message
+    (line,) = re.findall(r"velocity_m_s = \{.*?\}", message)
+    slower = re.sub(r"velocity_m_s = \{.*?\}", line, swept)
     further = re.sub(r"q1_per_m = \S+", f"q1_per_m = {both[1]}", swept)
     plain = re.sub(r"q1_per_m = \S+", f"q1_per_m = {both[2]}", swept)
     further = further.replace("[rubber]", '[rubber]\nextrapolation = "power-law"')
-    for followed in (plain, further):
+    for followed in (plain, further, slower):
         (folder / "scene.toml").write_text(followed)
         load_scene(folder / "scene.toml").friction()
 
