@@ -8,6 +8,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
@@ -110,7 +112,7 @@ def spectrum(args: Namespace) -> None:
         )
         step = f"end the spectrum there: q1_per_m = {floor:.3g}"
         notes.append(Note(text, code="noise-in-spectrum", next_step=step))
-    notes.append(Note(_serves(band, floor), code="reliable-band"))
+    notes.append(Note(_serves(measured, band, floor), code="reliable-band"))
     table = Table("spectrum", [{**inputs, "found": numbers}], notes, _rows(measured))
     drawn = cutoff if reached else None
     whole = measured.truncated(q1=measured.q1)
@@ -131,24 +133,27 @@ def _iso_25178(of: Any) -> dict[str, float]:
     return {f"{name}{units.get(name, '')}": value for name, value in known.items()}
 
 
-def _serves(band: Sequence[float] | None, floor: float | None) -> str:
+def _serves(measured: TabulatedSpectrum, band: Sequence[float] | None, floor: float | None) -> str:
     """Whether the scan serves, and from where to where."""
     if band is None:
         return "this scan does not serve: no row of its spectrum is reliable, take a larger one"
     first, last = band[0], min(band[1], floor or math.inf)
     if last <= first:
         return "this scan does not serve: where its spectrum is reliable noise is all that it shows"
-    decades = math.log10(last / first)
-    where = f"from {first:.3g} to {last:.3g} 1/m, {decades:.2g} decades"
-    upper, better = "half of pi / pixel", "finer pixels"
-    if last < band[1]:
-        upper, better = "the noise", "an instrument of less noise"
-    if decades < 1:
-        return (
-            f"this scan serves {where} only: mu would hang on what lies beyond; take a larger scan "
-            f"for longer waves, {better} for shorter ones"
-        )
-    return f"this scan serves {where}, the window's first sound row to {upper}"
+    below, up_to = (
+        float(np.square(measured.truncated(q1=q).rms_slope / (measured.rms_slope or 1.0)))
+        for q in (first, last)
+    )
+    share = up_to - below
+    text = (
+        f"this scan serves from {first:.3g} to {last:.3g} 1/m, {math.log10(last / first):.2g} "
+        f"decades with {100 * share:.0f} % of the mean square slope"
+    )
+    if share >= 0.5:
+        return text
+    finer = "finer pixels" if last == band[1] else "an instrument of less noise"
+    better = "a larger scan" if below > 1 - up_to else finer
+    return f"{text} only: mu hangs on the rest, for which take {better}"
 
 
 def _in_memory(path: Path, args: Namespace) -> Measured:
