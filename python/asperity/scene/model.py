@@ -128,6 +128,11 @@ class Scene:
         """Whether the temperature was given so."""
         return any(f"[{table}] temperature_c" in self.typed for table in ("conditions", "rubber"))
 
+    def notes_with(self, remarks: Iterable[Note]) -> list[Note]:
+        """Its notes and those of a result, in its words."""
+        named = partial(in_keys, names=NOTED)
+        return fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in remarks)])
+
     def _in_its_unit(self, notes: Iterable[Note]) -> list[Note]:
         """Notes with temperatures as the scene, or its isotherms, have them."""
         units = self.built_rubber.values.get("units", {})
@@ -188,8 +193,7 @@ class Scene:
         most = max(held, key=_share, default=None)  # of all points
         remarks = [note for note in remarks if note.code != _OF_STRAIN or note is most]
         remarks += small_friction_notes(np.concatenate([np.ravel(part.mu) for part in parts]))
-        named = partial(in_keys, names=NOTED)
-        notes = fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in remarks)])
+        notes = self.notes_with(remarks)
         slopes = reshaped(known(parts[0].gradients), shape) if gradients else None
         whole = {**vars(joined(parts, shape)), "gradients": slopes}
         return SceneFriction._made(whole, notes=tuple(notes))
@@ -237,39 +241,28 @@ class Scene:
         pressure, velocity = self.points
 
         def heated_at(i: int, heating: Heating) -> Friction:
-            return friction(
-                self.spectrum,
-                known(self.built_rubber.at_reference),
-                pressure=pressure[i],
-                velocity=velocity[i],
-                heating=heating,
-                **self._law,
-                correction=self.correction,
-                adhesion=self.adhesion,
-                **{**self.options, "rtol": ROUGHLY},
-            )
+            return self._roughly(pressure=pressure[i], velocity=velocity[i], heating=heating)
 
         return with_size_of_heat(notes, velocity, self.adhesion is not None, heated_at)
+
+    def _roughly(self, **points: Any) -> Friction:
+        """Friction to a few digits, of the rubber at its reference, shifted."""
+        return friction(
+            self.spectrum,
+            known(self.built_rubber.at_reference),
+            correction=self.correction,
+            adhesion=self.adhesion,
+            **self._law,
+            **{**self.options, "rtol": ROUGHLY},
+            **points,
+        )
 
     def rise_over_roughness(
         self, velocity: NDArray[np.float64]
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Wavenumbers [1/m], and T(q) - T0 [K] there at each velocity and the first pressure."""
-        built = self.built_rubber
-        assert built.at_reference is not None
-        result = friction(
-            self.spectrum,
-            built.at_reference,
-            pressure=self.pressure[0],
-            velocity=velocity,
-            temperature=self.temperature,
-            shift=built.shift,
-            heating=self.heating,
-            correction=self.correction,
-            adhesion=self.adhesion,
-            contributions=True,
-            **{**self.options, "rtol": ROUGHLY},
-        )
+        of_contacts = {"heating": self.heating, "contributions": True}
+        result = self._roughly(pressure=self.pressure[0], velocity=velocity, **of_contacts)
         return known(result.wavenumber), known(result.temperature_profile) - known(self.temperature)
 
     @property
@@ -340,8 +333,7 @@ class Scene:
         compute = partial(contact_notes, **self.options)
         parts: list[tuple[Note, ...]] = self._at_points(compute, nullcontext)
         remarks = [note for part in parts for note in part if note.code not in _OF_ALL]
-        named = partial(in_keys, names=NOTED)
-        return fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in remarks)])
+        return self.notes_with(remarks)
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
         """What the core's `compute` gives for each chunk of the points."""

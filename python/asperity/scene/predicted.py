@@ -2,16 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
 from statistics import NormalDist
 from typing import Any
 
 import numpy as np
 
 from asperity.base.diagnostics import Note, fatal_first
-from asperity.io.fields import in_keys
 from asperity.scene.at_points import Array, AtPoints
-from asperity.scene.keys import NOTED
 
 _NORMAL = NormalDist().inv_cdf(0.975)
 
@@ -49,12 +46,12 @@ def predicted(
         with np.errstate(divide="ignore", invalid="ignore"):
             numbers[here] = found.error_estimate / found.mu
             theory[here] = found.model_error * found.hysteresis / found.mu
-        notes += [*scene.notes, *(note.said(partial(in_keys, names=NOTED)) for note in found.notes)]
+        notes += scene.notes_with(found.notes)
         if of_fitted is None and scene.has_errors:
             band = scene.band_at(model.pressure[here], model.measured.velocity[here])
             width = NormalDist().inv_cdf((1 + scene.sampling["level"]) / 2)
             inputs[here] = np.log(band.upper / band.lower) / (2 * width)
-            notes += band.notes
+            notes += scene.notes_with(band.notes)
     known = np.nan_to_num(np.array([numbers, inputs, theory]))
     away = np.exp(_NORMAL * np.sqrt((known**2).sum(axis=0) + (scatter or 0.0) ** 2))
     return Prediction(tables, mu, numbers, inputs, theory, mu / away, mu * away, fatal_first(notes))

@@ -168,3 +168,17 @@ def test_notes_with_heat_are_of_the_rubber_as_it_then_is(dma: Path) -> None:
         found = loaded(dma, scene + HEATING, for_friction=True).friction()
         told = [note for note in found.notes if "outside of the measured ones" in note]
         assert len(told) == (found.extrapolated_share.max() > 0.05)
+
+
+def test_a_comparison_has_the_notes_of_the_scene_once_in_its_unit(dma: Path) -> None:
+    """A rubber carries its notes into results, which know nothing of degrees C."""
+    for k, celsius in enumerate(CELSIUS):  # E'' shifts by itself
+        hertz, rise = np.geomspace(0.1, 50, 12), np.geomspace(1, 3, 12)
+        rows = zip(hertz, 0.8**k * rise, 0.1 * 0.5**k * rise, strict=True)
+        lines = ["f,T,E1,E2", *(f"{f},{celsius},{one},{two}" for f, one, two in rows)]
+        (dma / f"dma/T{celsius:02d}.csv").write_text("\n".join(lines) + "\n")
+    scene = loaded(dma, SCENE.replace("temperature_c = 20", "temperature_c = 0"), for_friction=True)
+    assert any(" C" in note for note in scene.notes if note.code == "different-shifts")
+    measured = {"velocity": [1e-4, 1e-3], "mu": [0.5, 0.6]}
+    codes = [note.code for note in asperity.fit_scene(scene, measured).notes]
+    assert codes.count("different-shifts") == 1
