@@ -8,8 +8,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
@@ -140,11 +138,9 @@ def _serves(measured: TabulatedSpectrum, band: Sequence[float] | None, floor: fl
     first, last = band[0], min(band[1], floor or math.inf)
     if last <= first:
         return "this scan does not serve: where its spectrum is reliable noise is all that it shows"
-    below, up_to = (
-        float(np.square(measured.truncated(q1=q).rms_slope / (measured.rms_slope or 1.0)))
-        for q in (first, last)
-    )
-    share = up_to - below
+    whole = measured.rms_slope or 1.0
+    share = (measured.truncated(q0=first, q1=last).rms_slope / whole) ** 2
+    above = 1 - (measured.truncated(q1=last).rms_slope / whole) ** 2
     text = (
         f"this scan serves from {first:.3g} to {last:.3g} 1/m, {math.log10(last / first):.2g} "
         f"decades with {100 * share:.0f} % of the mean square slope"
@@ -152,7 +148,7 @@ def _serves(measured: TabulatedSpectrum, band: Sequence[float] | None, floor: fl
     if share >= 0.5:
         return text
     finer = "finer pixels" if last == band[1] else "an instrument of less noise"
-    better = "a larger scan" if below > 1 - up_to else finer
+    better = "a larger scan" if 1 - share > 2 * above else finer
     return f"{text} only: mu hangs on the rest, for which take {better}"
 
 

@@ -6,6 +6,8 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from asperity.base.diagnostics import Note, fatal_first
 from asperity.io.table import Table
 from asperity.scene.model import COLUMNS, Progress, Scene, SceneFriction
@@ -60,8 +62,18 @@ def table_of(scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Table:
             values["lateral"] = result.lateral.ravel()
         for name, column in {**names, **points, **values}.items():
             columns.setdefault(name, []).extend(column)
-    inputs = [scene_inputs(scene) for scene in reversed(files.values())]
+    inputs = []
+    for path, scene in reversed(files.items()):
+        of_file = [r for one, r in zip(scenes, curves, strict=True) if one.path == path]
+        inputs.append(scene_inputs(scene) | {"model_error": _range_of_model_error(of_file)})
     return Table("friction", inputs, notes_of_all(scenes, curves), columns)
+
+
+def _range_of_model_error(results: Sequence[SceneFriction]) -> list[float] | None:
+    """The least and the largest of the points where it is known, None where it is nowhere."""
+    errors = np.concatenate([result.model_error.ravel() for result in results])
+    known = errors[np.isfinite(errors)]
+    return [float(known.min()), float(known.max())] if known.size else None
 
 
 def notes_of_all(scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> list[Note]:

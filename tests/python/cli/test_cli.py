@@ -53,6 +53,8 @@ def test_friction_table_is_the_cores_to_the_last_digit(
         column = {"pressure": "pressure_pa", "velocity": "velocity_m_s"}.get(name, name)
         values = [float(row[column]) for row in rows]
         np.testing.assert_array_equal(values, np.ravel(getattr(result, name)), err_msg=name)
+    ends = [float(result.model_error.min()), float(result.model_error.max())]
+    assert f"# model_error = {json.dumps(ends)}" in comments
     *notes, step = err.splitlines()
     plain = 'take [correction] kind = "partial-contact", which was 4 % rms off'
     heat = "give [heating], with a temperature and the shift of the rubber"
