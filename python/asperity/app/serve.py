@@ -10,6 +10,7 @@ import sys
 import webbrowser
 from collections.abc import Callable
 from threading import Timer
+from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.app.guard import Guard
@@ -18,6 +19,7 @@ from asperity.base.extras import to_install
 
 _OPEN_AFTER = 1.5  # s, by which the server answers on most machines; a browser waits anyway
 _TURN = 5e-4  # s after which a thread that computes lets the server answer
+_AWAY = 60.0  # s that a page may not be heard of, as on a busy machine, before it is new
 _NEEDED = {"nicegui": "NiceGUI", "matplotlib": "matplotlib", "jinja2": "Jinja2"}
 
 
@@ -74,7 +76,8 @@ def _run(bound: socket.socket, token: str, port: int) -> None:
     application = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
     application.post(ADDRESS)(receive)
     ui.page("/", title="asperity")(show_page)
-    ui.run_with(application, title="asperity", language="en-US", show_welcome_message=False)
+    how: dict[str, Any] = {"language": "en-US", "show_welcome_message": False}
+    ui.run_with(application, title="asperity", reconnect_timeout=_AWAY, **how)
     guard = Guard(application, token, port)
     config = uvicorn.Config(
         guard, log_level="error", access_log=False, server_header=False, timeout_graceful_shutdown=2
