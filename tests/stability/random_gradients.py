@@ -6,13 +6,14 @@ Roads, rings, Prony series, master curves of rows anywhere, corrections, adhesio
 constants are drawn as in random_heat.py, strain factors beside them; half of the scenes have no
 heat. At one velocity some slopes of each are held to central differences of mu of a finer rtol, and
 the integrals of the densities to d mu / d ln p, where the hysteresis stands alone. Of a difference
-its own error is allowed too, as two steps and the errors of mu tell it; where that is above a
-thousandth of mu it says nothing and is left out. Printed: how many slopes were compared, errors
-over those stated, which slopes exceeded, errors stated and found over mu. Exit status 1 where one
-exceeded.
+its own error is allowed too, as two steps, what bends between them and the errors of mu tell it;
+where that is above a thousandth of mu it says nothing and is left out. Printed: how many slopes
+were compared, errors over those stated, which slopes exceeded, errors stated and found over mu.
+Exit status 1 where one exceeded.
 """
 
 import argparse
+import functools
 import inspect
 import sys
 from collections.abc import Callable, Iterator
@@ -124,6 +125,11 @@ def numbers(
     if at["adhesion"] is not None:
         for name in ("shear_stress", "reference_velocity", "width"):
             yield name, getattr(of, name), part("adhesion", name)
+    for name in ("gamma", "friction_gamma", "p", "z_max", "z_min", "correction_rms_height"):
+        slope, argument = getattr(of, name), name.removeprefix("correction_")
+        value = None if slope is None else getattr(at["correction"], argument)
+        if value is not None and not (argument == "gamma" and value > 0.99) and value != 1:
+            yield name, slope, part("correction", argument)
     if (factors := at.get("strain_factors")) is not None:
         yield "strain_per_slope", of.strain_per_slope, part("strain_factors", "strain_per_slope")
         row = int(rng.integers(len(factors.strain)))
@@ -160,6 +166,7 @@ def compute(seed: int, scene: int) -> Outcome:
         outcome.refused = "no friction"
         return outcome
     all_numbers = list(numbers(road, rubber, at, of, rng))
+    middle = functools.cache(lambda: mu((road, rubber, at)))
     chosen = rng.permutation(len(all_numbers))[:LONGEST]
     for name, slope, change in (all_numbers[k] for k in chosen):
         step = OF_ROWS if name.endswith("modulus") and measured else STEP
@@ -171,10 +178,11 @@ def compute(seed: int, scene: int) -> Outcome:
         best = (4 * two - four) / 3
         # four to three is what the error of mu does to it; kinks leave part of what steps tell
         left = abs(best - two) / 2 + 3 * sum(one.error_estimate for one in near) / (2 * step)
+        # a kink has a slope on each side: unlike a curvature it bends as much on half of a step
+        bend, wider = (abs(a.mu + b.mu - 2 * middle().mu) for a, b in (near, far))
+        left += abs(bend - wider / 4) / step
         if left <= TELLING * whole:
             stated = of.error_estimate * (10 if name == "temperature" else 1)
-            of_row = measured and name.endswith("modulus")
-            stated += 1e-3 * whole if name in ("q0", "q1") or of_row else 0
             outcome.errors[name] = tuple(
                 float(one / whole) for one in (abs(slope - best), stated, left)
             )

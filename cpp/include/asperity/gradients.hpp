@@ -23,16 +23,16 @@ struct Gradients {
   std::vector<double> storage, loss;       // densities over ln w of d mu / d ln E' and d mu / d ln E''
   std::vector<double> pressure, velocity;  // d mu / d ln p, d mu / d ln v
   std::vector<double> temperature;         // d mu / d T [1/K]; empty without a temperature
-  /// d mu / d ln of a number that an object was made with, or of each of several: points x count. The rows of
-  /// StrainFactors are `storage_factors` and `loss_factors`.
+  /// d mu / d ln of a number that an object or the model was made with, or of each of several: points x count. The rows
+  /// of StrainFactors are `storage_factors` and `loss_factors`; rms_height and q0 of a correction, names that a
+  /// spectrum has too, are `correction_rms_height` and `correction_q0`, and its z_max is that of peaks and profile.
   struct OfArgument {
     std::string name;
     std::size_t count;
     std::vector<double> values;
   };
   std::vector<OfArgument> arguments;
-  /// Of every slope of a point, absolute; of a density, of its integral. Those over q0, q1 and single rows of a
-  /// master curve have up to 1e-3 of mu more.
+  /// Of every slope of a point, absolute; of a density, of its integral over any range.
   std::vector<double> error_estimate;
 };
 

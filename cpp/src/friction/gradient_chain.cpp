@@ -29,14 +29,6 @@ std::vector<std::string> law_arguments(const SelfAffineSpectrum& law) {
   return result;
 }
 
-SelfAffineSpectrum changed_law(const SelfAffineSpectrum& law, std::size_t argument, double factor) {
-  SelfAffineSpectrum result = law;
-  double* const numbers[] = {&result.rms_height, &result.hurst, &result.q0, &result.q1,
-                             result.rolloff ? &*result.rolloff : nullptr};
-  *numbers[argument] *= factor;
-  return result;
-}
-
 GradientChain::GradientChain(const GradientScene& scene, const ContactGrid& grid)
     : scene_(scene),
       grid_(grid),
@@ -45,24 +37,28 @@ GradientChain::GradientChain(const GradientScene& scene, const ContactGrid& grid
       known_(known_range(scene.rubber)) {
   take_law();
   if (std::holds_alternative<NayakSFactor>(scene.model.correction)) take_nayak();
+  const std::vector<std::string> numbers = correction_arguments(scene.model.correction);
+  if (std::ranges::any_of(numbers, [](const std::string& name) { return name.ends_with("gamma"); }))
+    gamma_.emplace(scene.model, scene.spectrum, scene.surface, grid);
   if (scene.model.strain_factors) strain_.emplace(*scene.model.strain_factors, scene.surface, grid);
 }
 
-/// By central differences of ln C.
+/// ln C is the logarithm of a shape less that of int q C dq, which is kept: with q1 it loses what is added there.
 void GradientChain::take_law() {
   const auto* const law = std::get_if<SelfAffineSpectrum>(&scene_.spectrum);
   if (!law) return;
-  constexpr double step = 1e-6;
-  for (std::size_t k = 0; k < law_arguments(*law).size(); ++k) {
-    const SelfAffineSpectrum less = changed_law(*law, k, 1 - step), more = changed_law(*law, k, 1 + step);
-    VectorXd slope(static_cast<Index>(grid_.band_size()));
-    for (Index j = 0; j < slope.size(); ++j) {
-      const double q = std::clamp(grid_.wavenumber()[static_cast<std::size_t>(j)], law->q0 * (1 + 2 * step),
-                                  law->q1 * (1 - 2 * step));
-      slope[j] = std::log(density(more, q) / density(less, q)) / (2 * step);
-    }
-    law_.push_back(std::move(slope));
-  }
+  const VectorXd q = column(grid_.wavenumber(), grid_.band_size()),
+                 square = grid_.weight().cwiseQuotient(q.cwiseAbs2());
+  const double q_r = law->rolloff.value_or(law->q0), power = 2 * (1 + law->hurst);
+  const Eigen::ArrayXd falls = (q.array() > q_r).cast<double>();
+  const auto kept = [&](const Eigen::ArrayXd& of_shape) {
+    return VectorXd(of_shape - square.dot(of_shape.matrix()) / square.sum());
+  };
+  const auto every = [&](double value) { return VectorXd(VectorXd::Constant(q.size(), value)); };
+  const double at_q1 = law->q1 * law->q1 * density(*law, law->q1) / (law->rms_height * law->rms_height);
+  law_ = {every(2), kept(-2 * law->hurst * falls * (q / q_r).array().log()), every(0),
+          every(-2 * std::numbers::pi * at_q1)};
+  if (law->rolloff) law_.push_back(kept(power * falls));
 }
 
 /// alpha = 1.5 m0 m4 / m2^2 of m_n = int q^(n + 1) C dq.
@@ -94,16 +90,17 @@ VectorXd GradientChain::by_roughness(const MuSlopes& mu, double by_end, const Sh
   return result;
 }
 
-/// d mu over ln q of an end of the band that moves outwards, C going on: what a node there has, over its d ln q.
-double GradientChain::at_end(const VectorXd& by_node, bool upper) const {
-  const ContactGrid::Cell& cell = upper ? grid_.cells().back() : grid_.cells().front();
+/// d mu over ln q of the upper end of the band as it moves outwards, C going on: what a node there has, over its d ln
+/// q.
+double GradientChain::at_end(const VectorXd& by_node) const {
+  const ContactGrid::Cell& cell = grid_.cells().back();
   const LegendreRule& rule = *cell.rule;
-  const double half = (cell.upper - cell.lower) / 2, *const shape = upper ? rule.at_upper : rule.at_lower;
+  const double half = (cell.upper - cell.lower) / 2;
   double result = 0;
   for (std::size_t j = 0; j < rule.n; ++j) {
     const double t = cell.lower + half * (1 + rule.node[j]);
     const double length = half * rule.weight[j] * 2 * t;
-    result += shape[j] * by_node[static_cast<Index>(cell.first + j)] / length;
+    result += rule.at_upper[j] * by_node[static_cast<Index>(cell.first + j)] / length;
   }
   return result;
 }
@@ -121,7 +118,7 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
       const auto at = static_cast<Index>(j);
       const double i1 = felt.columns.i1[j], i2 = felt.columns.i2[j], by_i1 = i1 > 0 ? of_i1[at] : 0, by_i2 = of_i2[at];
       if (by_i1 == 0 && by_i2 == 0) continue;
-      const bool held = known_ && j >= band && felt.frequency[j] >= known_->highest;
+      const bool held = known_ && j >= band && felt.frequency[j] == known_->highest;  // by its user
       if (!held) {
         const double slope1 = i1 > 0 ? felt.columns.slope1[j] / i1 : 0,
                      part = by_i2 * (felt.columns.slope2[j] / i2) + by_i1 * slope1;
@@ -153,30 +150,52 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   VectorXd by_strain = VectorXd::Zero(static_cast<Index>(band));
   if (strain_) strain = (*strain_)(by_f, by_g, by_strain);
   VectorXd by_node = by_roughness(mu, by_end + strain.end, shift);
+  const double at_q1 = law_.empty() ? 0 : at_end(by_node) + strain.beyond * at_end(grid_.weight());
   by_node.head(by_strain.size()) += by_strain;
   result.spectrum = rows_(by_node);
-  add_law(mu.of, shift, by_node, result);
+  add_law(mu, shift, by_node, at_q1, result);
   scene_.modulus(integrals, result.storage, result.loss);
   // I1 is linear in E and I2 a square
   result.missed = std::fmax(std::fabs(result.storage.sum() + result.loss.sum() - homogeneous), std::fabs(beside));
   add_modulus(mu, integrals, shift, result);
-  if (!strain_) return result;
-  result.arguments.push_back(one(strain.per_slope));
-  result.arguments.push_back(std::move(strain.storage));
-  result.arguments.push_back(std::move(strain.loss));
+  if (strain_) {
+    result.arguments.push_back(one(strain.per_slope));
+    result.arguments.push_back(std::move(strain.storage));
+    result.arguments.push_back(std::move(strain.loss));
+  }
+  // all that knows Poisson's ratio has E / (1 - nu^2)
+  const double nu = scene_.model.poisson_ratio;
+  result.arguments.push_back(one(2 * nu * nu / (1 - nu * nu) * (homogeneous + 2 * mu.of.scale * shift.pressure)));
+  if (gamma_)
+    result.arguments.push_back(one((*gamma_)({mu.felt.columns.i1, mu.felt.columns.i2}, mu.of, mu.by_area, mu.g)));
+  for (const double slope : shift.correction) result.arguments.push_back(one(-2 * mu.of.scale * slope));
   return result;
 }
 
-void GradientChain::add_law(const ContactGradient& of, const ShiftGradient& shift, const VectorXd& by_node,
+/// The slope over q0 follows from all others, as mu does not change with the unit of length. Both theory and p_T keep
+/// that, the latter with lengths of its own.
+void GradientChain::add_law(const MuSlopes& mu, const ShiftGradient& shift, const VectorXd& by_node, double at_q1,
                             PointGradient& result) const {
-  for (std::size_t k = 0; k < law_.size(); ++k) {
-    double slope = by_node.head(law_[k].size()).dot(law_[k]);
-    if (k == 2) slope -= at_end(by_node, false);
-    if (k == 3) slope += at_end(by_node, true);
-    // the rms height is in the slope over ln C already
-    if (k > 0 && !shift.law.empty()) slope -= 2 * of.scale * shift.law[k];
-    result.arguments.push_back(one(slope));
-  }
+  if (law_.empty()) return;
+  const double by_shift = -2 * mu.of.scale;  // over ln p_T
+  std::vector<double> slopes;
+  for (const VectorXd& of_nodes : law_) slopes.push_back(by_node.head(of_nodes.size()).dot(of_nodes));
+  slopes[3] += at_q1;
+  slopes[2] = slopes[0] - by_shift * shift.rms_height - slopes[3] + result.by_frequency + mu.by_lengths;
+  if (slopes.size() > 4) slopes[2] -= slopes[4];
+  if (shift.along != 0) slopes[2] -= shift.along * by_frequency_of(mu, shift);
+  slopes[slopes.size() > 4 ? 4 : 2] += by_shift * shift.wavenumber;
+  for (const double slope : slopes) result.arguments.push_back(one(slope));
+}
+
+/// Over the frequency at which p_T knows |E|.
+double GradientChain::by_frequency_of(const MuSlopes& mu, const ShiftGradient& shift) const {
+  constexpr double step = 1e-5;
+  const double w = shift.velocity * shift.macro_wavenumber;
+  const auto size = [&](double at) { return std::abs(modulus(scene_.rubber, at)); };
+  const double lower = known_ ? std::fmax(w * (1 - step), known_->lowest) : w * (1 - step),
+               upper = known_ ? std::fmin(w * (1 + step), known_->highest) : w * (1 + step);
+  return 2 * mu.of.scale * shift.pressure * std::log(size(upper) / size(lower)) / std::log(upper / lower);
 }
 
 /// Over the rows of the modulus and the terms of a series. A p_T that knows |E| has it at one frequency.
@@ -192,11 +211,7 @@ void GradientChain::add_modulus(const MuSlopes& mu, const IntegralSlopes& integr
     const double square = std::norm(e);
     scene_.modulus.add_at(w, by_modulus * e.real() * e.real() / square, by_modulus * e.imag() * e.imag() / square,
                           result.storage, result.loss);
-    constexpr double step = 1e-5;
-    const auto size = [&](double at) { return std::abs(modulus(scene_.rubber, at)); };
-    const double lower = known_ ? std::fmax(w * (1 - step), known_->lowest) : w * (1 - step),
-                 upper = known_ ? std::fmin(w * (1 + step), known_->highest) : w * (1 + step);
-    const double part = by_modulus * std::log(size(upper) / size(lower)) / std::log(upper / lower);
+    const double part = by_frequency_of(mu, shift);
     result.by_frequency += part;
     result.by_temperature += part * shift.rate;
     if (series) {

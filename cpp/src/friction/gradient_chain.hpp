@@ -12,6 +12,7 @@
 #include "contact/theory/roughness_gradient.hpp"
 #include "contact/theory/strain_gradient.hpp"
 #include "contact/theory/theory.hpp"
+#include "friction/correction_gradient.hpp"
 #include "heat/angular_slopes.hpp"
 #include "rubber/modulus_gradient.hpp"
 
@@ -28,14 +29,16 @@ struct GradientScene {
   const ModulusGradient& modulus;
 };
 
-/// Slopes of ln p_T over ln of the pressure, of the rms height of the roughness and of each number of a law; over the
-/// modulus it has that over the pressure, its sign turned.
+/// Slopes of ln p_T over ln of the pressure and of what it has of the roughness; over the modulus it has that over the
+/// pressure, its sign turned.
 struct ShiftGradient {
-  double p = 1, pressure = 0, rms_height = 0;
-  double macro_wavenumber = 0;  // at which the modulus is asked for, 0 where it is not
-  double velocity = 0;          // v a_T there [m/s]
-  double rate = 0;              // d ln a_T / dT there [1/K]
-  std::vector<double> law;
+  double p = 1, pressure = 0;
+  double rms_height = 0, wavenumber = 0;  // of the roughness: over its rms height, and its q0 or rolloff
+  double macro_wavenumber = 0;            // at which the modulus is asked for, 0 where it is not
+  double velocity = 0;                    // v a_T there [m/s]
+  double rate = 0;                        // d ln a_T / dT there [1/K]
+  double along = 0;                       // d ln a_T / d ln q there
+  std::vector<double> correction;         // over each of its numbers
 };
 
 /// The slopes of mu, or of a number that stands for it, at the nodes of a grid.
@@ -43,6 +46,7 @@ struct MuSlopes {
   ContactGradient of;
   double by_area = 0, g = 0;  // over A / A0 itself, and G at q1
   double end = 0;             // over ln q_e, beside what is felt there
+  double by_lengths = 0;      // over all those of heat together, q_m a length's inverse
   FeltModulus felt, cold;     // the latter at T0, where `of` asks for it
 };
 
@@ -54,7 +58,7 @@ struct PointGradient {
   /// What the rows of the modulus have together beside what the nodes have, or slopes over less of it beside those
   /// that were taken: the larger.
   double missed = 0;
-  std::vector<Eigen::VectorXd> arguments;  // of the law, the series and the factors of strain
+  std::vector<Eigen::VectorXd> arguments;  // of the law, the series, the factors of strain and the correction
 };
 
 /// On one grid, which must outlive it.
@@ -71,10 +75,11 @@ class GradientChain {
   void take_law();
   void take_nayak();
   [[nodiscard]] Eigen::VectorXd by_roughness(const MuSlopes& mu, double by_end, const ShiftGradient& shift);
-  [[nodiscard]] double at_end(const Eigen::VectorXd& by_node, bool upper) const;
+  [[nodiscard]] double at_end(const Eigen::VectorXd& by_node) const;
+  [[nodiscard]] double by_frequency_of(const MuSlopes& mu, const ShiftGradient& shift) const;
   void add_modulus(const MuSlopes& mu, const IntegralSlopes& integrals, const ShiftGradient& shift,
                    PointGradient& result) const;
-  void add_law(const ContactGradient& of, const ShiftGradient& shift, const Eigen::VectorXd& by_node,
+  void add_law(const MuSlopes& mu, const ShiftGradient& shift, const Eigen::VectorXd& by_node, double at_q1,
                PointGradient& result) const;
 
   const GradientScene& scene_;
@@ -86,11 +91,10 @@ class GradientChain {
   std::vector<Eigen::VectorXd> law_;  // d ln C of the nodes over each number of a law
   Eigen::VectorXd nayak_;             // the same of ln alpha over ln C of the nodes
   std::vector<SInside> inside_;       // at an alpha that is less, and more
+  std::optional<GammaGradient> gamma_;
 };
 
 /// The numbers of a law by their names, in the order of the slopes.
 std::vector<std::string> law_arguments(const SelfAffineSpectrum& law);
-/// The law with one of them times a factor.
-SelfAffineSpectrum changed_law(const SelfAffineSpectrum& law, std::size_t argument, double factor);
 
 }  // namespace asperity

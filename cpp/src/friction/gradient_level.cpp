@@ -2,8 +2,10 @@
 // proportion to A / A0 / sigma0.
 #include "friction/gradient_level.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "contact/correction.hpp"
 #include "friction/before_heating.hpp"
@@ -21,6 +23,7 @@ ContactGridOptions grid_options(const GradientScene& scene, std::size_t number, 
   result.poisson_ratio = scene.model.poisson_ratio;
   result.level = number;
   result.tabulated = std::holds_alternative<MasterCurve>(scene.rubber);
+  if (result.tabulated) result.halvings = number;
   if (has_own_rule(scene.model.correction)) result.window = &window;
   const Excitation waves(scene.rubber, scene.model, scene.surface);
   const auto* const table = std::get_if<TabulatedSpectrum>(&scene.spectrum);
@@ -40,28 +43,37 @@ ContactGridOptions grid_options(const GradientScene& scene, std::size_t number, 
 }  // namespace
 
 ShiftGradient shift_gradient(const GradientScene& scene, double pressure, double velocity, double rate, double along) {
-  const std::optional<double> macro = asperity_wavenumber(scene.model.correction, scene.spectrum);
-  const auto shift = [&](const Spectrum& spectrum, double p) {
-    const double moved = macro && along != 0 ? *asperity_wavenumber(scene.model.correction, spectrum) / *macro : 1;
-    return affine_shift(scene.model.correction, spectrum, scene.rubber, p, velocity * std::pow(moved, along),
+  const Correction& correction = scene.model.correction;
+  const std::optional<double> macro = asperity_wavenumber(correction, scene.spectrum);
+  const auto shift = [&](const Correction& with, double p) {
+    const double moved = macro && along != 0 ? *asperity_wavenumber(with, scene.spectrum) / *macro : 1;
+    return affine_shift(with, scene.spectrum, scene.rubber, p, velocity * std::pow(moved, along),
                         scene.model.poisson_ratio)
         .p;
   };
   ShiftGradient result;
-  result.p = shift(scene.spectrum, pressure);
+  result.p = shift(correction, pressure);
   result.velocity = velocity;
   result.rate = rate;
-  if (!macro || !std::isfinite(result.p)) return result;
-  result.macro_wavenumber = *macro;
+  if (!shifts(correction) || !std::isfinite(result.p)) return result;
   constexpr double step = 1e-5;
-  const auto slope = [](double less, double more) { return std::log(more / less) / (2 * step); };
-  result.pressure = slope(shift(scene.spectrum, pressure * (1 - step)), shift(scene.spectrum, pressure * (1 + step)));
-  const auto higher = [&](double factor) { return scaled(scene.spectrum, factor * factor); };
-  result.rms_height = slope(shift(higher(1 - step), pressure), shift(higher(1 + step), pressure));
-  if (const auto* const law = std::get_if<SelfAffineSpectrum>(&scene.spectrum))
-    for (std::size_t k = 0; k < law_arguments(*law).size(); ++k)
-      result.law.push_back(
-          slope(shift(changed_law(*law, k, 1 - step), pressure), shift(changed_law(*law, k, 1 + step), pressure)));
+  const Correction whole = with_numbers_of(scene.spectrum, correction);
+  const std::vector<std::string> names = correction_arguments(whole), own = correction_arguments(correction);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto changed = [&](double factor) {  // upwards, as z_max may be that of a peak
+      return std::log(shift(changed_correction(whole, k, factor), pressure) / result.p);
+    };
+    const double slope = (4 * changed(1 + step) - changed(1 + 2 * step)) / (2 * step);
+    if (std::ranges::find(own, names[k]) != own.end())
+      result.correction.push_back(slope);
+    else
+      (names[k].ends_with("rms_height") ? result.rms_height : result.wavenumber) = slope;
+  }
+  if (!macro) return result;
+  result.macro_wavenumber = *macro;
+  result.along = along;
+  result.pressure =
+      std::log(shift(correction, pressure * (1 + step)) / shift(correction, pressure * (1 - step))) / (2 * step);
   return result;
 }
 
@@ -86,7 +98,9 @@ GradientLevel::GradientLevel(const GradientScene& scene, std::size_t number)
       theory_(contact_theory(scene.model, scene.spectrum, scene.surface, grid_)),
       chain_(scene, grid_),
       angular_(scene.rubber, chain_.factors()),
-      known_(known_range(scene.rubber)) {}
+      known_(known_range(scene.rubber)) {
+  if (std::holds_alternative<MasterCurve>(scene.rubber)) panels_.emplace(grid_);
+}
 
 PointGradient GradientLevel::operator()(const GradientPoint& point, const ShiftGradient& shift) {
   const std::size_t n = grid_.size();
@@ -95,11 +109,11 @@ PointGradient GradientLevel::operator()(const GradientPoint& point, const ShiftG
   for (std::size_t j = 0; j < n; ++j) {
     felt.frequency[j] = point.velocity * point.a_T * grid_.wavenumber()[j];
     // beyond the band the modulus keeps the value that it has at the last frequency that is known
-    if (known_) felt.frequency[j] = std::fmin(felt.frequency[j], known_->highest);
+    if (known_ && !panels_) felt.frequency[j] = std::fmin(felt.frequency[j], known_->highest);
   }
   felt.rate = VectorXd::Constant(static_cast<Index>(n), point.shift_rate.value_or(0));
   felt.along = VectorXd::Ones(static_cast<Index>(n));
-  angular_(felt);
+  angular_(felt, panels_ ? &*panels_ : nullptr, point.velocity * point.a_T);
   theory_->start({});
   theory_->take({{felt.columns.i1.data(), n}, {felt.columns.i2.data(), n}});
   const double root = 1 / (point.pressure * shift.p);

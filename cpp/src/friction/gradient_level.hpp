@@ -42,6 +42,7 @@ class GradientLevel {
   std::unique_ptr<Theory> theory_;
   GradientChain chain_;
   AngularSlopes angular_;
+  std::optional<PanelSlopes> panels_;  // for a measured modulus
   std::optional<FrequencyRange> known_;
   MuSlopes mu_;
 };

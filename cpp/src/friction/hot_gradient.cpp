@@ -44,7 +44,13 @@ PointGradient HotGradient::on(FlashMap& map, const GradientPoint& point) {
   const ShiftValue& felt = map.also_felt();
   const ShiftGradient shift = shift_gradient(scene_, point.pressure, point.velocity * std::pow(10, felt.log10_a_T),
                                              std::numbers::ln10 * felt.slope, map.also_felt_along());
-  MuSlopes mu{of.of, of.by_area, map.g(), of.end, map.felt(), {}};
+  const double heat = of.depth + of.surface;
+  const Heating& heating = heat_.heating;
+  const auto [q0, q1] = band(scene_.spectrum);
+  const double q_m = heat_.macro_wavenumber;
+  const bool follows = !heating.macro_wavenumber && q_m > q0 && q_m < q1;
+  const double of_q_m = follows || heating.macro_wavenumber ? of.macro_wavenumber : 0;
+  MuSlopes mu{of.of, of.by_area, map.g(), of.end, heat + of.length - of_q_m, map.felt(), {}};
   if (mu.of.cold_i2.size() != 0) mu.cold = map.felt_cold();
   PointGradient result = chain_of(map)(mu, shift);
   add_conditions(scene_, point, shift, map.hysteresis() + 2 * of.depth, map.adhesion() + of.surface, of.of.scale,
@@ -52,11 +58,6 @@ PointGradient HotGradient::on(FlashMap& map, const GradientPoint& point) {
   // p of the surface's heat is that of the adhesion's inverse
   result.pressure += of.surface;
   result.velocity -= of.length / 2;
-  const double heat = of.depth + of.surface;
-  const Heating& heating = heat_.heating;
-  const auto [q0, q1] = band(scene_.spectrum);
-  const double q_m = heat_.macro_wavenumber;
-  const bool follows = !heating.macro_wavenumber && q_m > q0 && q_m < q1;
   std::vector<double> slopes{-heat - of.length / 2, -heat - of.length / 2, of.length / 2,
                              heat + of.length / 2 - (follows ? of.macro_wavenumber : 0)};
   if (heating.macro_wavenumber) slopes.push_back(of.macro_wavenumber);

@@ -28,6 +28,14 @@ void AngularSlopes::operator()(FeltModulus& felt) {
   felt.loss_part.assign(of_loss_.begin(), of_loss_.begin() + std::ssize(factors_));
 }
 
+void AngularSlopes::operator()(FeltModulus& felt, const PanelSlopes* panels, double velocity) {
+  panels_ = panels;
+  velocity_ = velocity;
+  solve(felt.frequency, true, felt.columns);
+  panels_ = nullptr;
+  felt.loss_part.assign(of_loss_.begin(), of_loss_.begin() + std::ssize(factors_));
+}
+
 void AngularSlopes::solve(std::span<const double> w, bool sloped, AngularColumns& result, double step) {
   const std::size_t n = w.size();
   if (!factors_.empty()) {
@@ -110,6 +118,10 @@ void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w
   (void)curve.angular_integrals(held_, result.i1, result.i2);
   if (!factors_.empty()) curve.loss_part(held_, of_loss_);
   if (!sloped) return;
+  if (panels_) {
+    on_panels(curve, result);
+    return;
+  }
   for (const std::size_t side : {0, 1}) {
     for (auto* column : {&around_[side], &i1_[side], &i2_[side]}) column->resize(n);
     const double factor = std::exp(side == 0 ? -step : step);
@@ -125,6 +137,20 @@ void AngularSlopes::of_curve(const MasterCurve& curve, std::span<const double> w
   if (factors_.empty()) return;
   for (const std::size_t side : {0, 1}) curve.loss_part(around_[side], i2_[side]);
   difference(i2_, loss_slope_);
+}
+
+void AngularSlopes::on_panels(const MasterCurve& curve, AngularColumns& result) {
+  std::vector<double>&at = around_[0], &i1 = i1_[0], &i2 = i2_[0];
+  at.clear();
+  for (const double q : panels_->wavenumber())
+    at.push_back(std::clamp(velocity_ * q, curve.lowest_frequency(), curve.highest_frequency()));
+  for (auto* const column : {&i1, &i2}) column->resize(at.size());
+  (void)curve.angular_integrals(at, i1, i2);
+  (*panels_)(result.i1, i1, result.slope1);
+  (*panels_)(result.i2, i2, result.slope2);
+  if (factors_.empty()) return;
+  curve.loss_part(at, i2);
+  (*panels_)(of_loss_, i2, loss_slope_);
 }
 
 }  // namespace asperity

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "contact/grid/excitation.hpp"
+#include "contact/grid/panel_slopes.hpp"
 
 namespace asperity {
 
@@ -24,7 +25,7 @@ struct FeltModulus {
   AngularColumns columns;
   std::vector<double> loss_part;
   Eigen::VectorXd rate, along;
-  AngularColumns beside = {};  // of a master curve the same with slopes over a hundredth of their step
+  AngularColumns beside = {};  // where slopes are means, the same with those over a hundredth of their step
 };
 
 /// While a temperature is searched for, frequencies may leave those that the rubber knows: a fitted series goes on, and
@@ -41,6 +42,9 @@ class AngularSlopes {
   /// The columns and the loss part of what nodes feel at its frequencies. Slopes of measured rows change from row to
   /// row: they are means over as much as nodes are apart.
   void operator()(FeltModulus& felt);
+  /// The same where a frequency is in proportion to the wavenumber of the node. Slopes of measured rows are those of
+  /// `panels`.
+  void operator()(FeltModulus& felt, const PanelSlopes* panels, double velocity);
 
  private:
   /// The step is that of differences of a curve, in ln w: by default errors of 1e-9 by it and 1e-8 by the table's
@@ -48,6 +52,7 @@ class AngularSlopes {
   void solve(std::span<const double> w, bool sloped, AngularColumns& result, double step = 1e-4);
   void of_series(std::span<const double> w, bool sloped, AngularColumns& result);
   void of_curve(const MasterCurve& curve, std::span<const double> w, bool sloped, double step, AngularColumns& result);
+  void on_panels(const MasterCurve& curve, AngularColumns& result);
   void add_rings(std::span<const double> w, bool sloped, AngularColumns& result);
 
   const Rubber& rubber_;
@@ -55,6 +60,8 @@ class AngularSlopes {
   std::vector<ModulusFactors> factors_;
   Rings rings_;
   std::size_t harmonics_ = 0;
+  const PanelSlopes* panels_ = nullptr;
+  double velocity_ = 0;
   std::vector<double> around_[2], i1_[2], i2_[2], held_, of_loss_, loss_slope_;
   std::vector<double> loss_, square_, slopes_;  // rows of harmonics
 };

@@ -64,6 +64,18 @@ Eigen::RowVector4d cubic_through(const Eigen::RowVector4d& f) {
           -4.5 * f[0] + 13.5 * f[1] - 13.5 * f[2] + 4.5 * f[3]};
 }
 
+/// Where a stretch of ln w between two rows is cut, from 0 on; the first piece at quarters, down to what the stretch
+/// `before` it is long: rows that nearly meet are like one with a step.
+std::vector<double> breaks_between(double length, double before) {
+  const double pieces = std::ceil(length / longest), first = length / pieces;
+  std::vector<double> result{0};
+  double cut = first;
+  while (cut / 4 > before) cut /= 4;
+  for (; cut < first; cut *= 4) result.push_back(cut);
+  for (double k = 1; k <= pieces; ++k) result.push_back(k * first);
+  return result;
+}
+
 }  // namespace
 
 ModulusGradient::ModulusGradient(const Rubber& rubber, double lowest, double highest) : rubber_(rubber) {
@@ -108,16 +120,18 @@ void ModulusGradient::take_rows(const MasterCurve& curve) {
     changed.push_back({with(-moved), with(moved)});
   }
   std::vector<double> edges{curve.knots().begin(), curve.knots().end()};
+  double before = HUGE_VAL;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
-    const double pieces = std::ceil(std::log(edges[i + 1] / edges[i]) / longest);
+    const double length = std::log(edges[i + 1] / edges[i]);
+    const std::vector<double> breaks = breaks_between(length, before);
+    before = length;
     const auto at = static_cast<std::size_t>(std::ranges::upper_bound(rows_, edges[i]) - rows_.begin());
     // the line beyond an end has the slope of the end, and that has three rows
     const std::size_t reach = at == 0 || at == rows_.size() ? 3 : 2;
     const std::size_t begin = at > reach ? at - reach : 0, end = std::min(rows_.size(), at + reach);
-    for (double k = 0; k < pieces; ++k) {
-      const auto edge = [&](double j) { return edges[i] * std::pow(edges[i + 1] / edges[i], j / pieces); };
-      Stretch stretch{edge(k), k + 1 == pieces ? edges[i + 1] : edge(k + 1), static_cast<Index>(begin),
-                      static_cast<Index>(end - begin)};
+    for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+      const double high = k + 2 == breaks.size() ? edges[i + 1] : edges[i] * std::exp(breaks[k + 1]);
+      Stretch stretch{edges[i] * std::exp(breaks[k]), high, static_cast<Index>(begin), static_cast<Index>(end - begin)};
       for (std::size_t row = begin; row < end; ++row) {
         const auto& [less, more] = changed[row % apart];
         Eigen::RowVector4d storage, loss;
@@ -270,17 +284,18 @@ SeriesGradient series_gradient(const PronySeries& series, const IntegralSlopes& 
   const auto size = static_cast<Index>(of.w.size());
   const auto of_w = Eigen::ArrayXd::Map(of.w.data(), size), of_i1 = Eigen::ArrayXd::Map(of.i1.data(), size),
              of_i2 = Eigen::ArrayXd::Map(of.storage.data(), size);
-  Eigen::ArrayXd t(size), share(size), over_t(size), slope(size);
+  Eigen::ArrayXd t(size), root(size), part(size), over_t(size), slope_over_t(size);
   for (Index k = 0; k < n; ++k) {
     t = (of_w * tau[static_cast<std::size_t>(k)]).min(1e140);  // whose square is a double
-    share = (1 + t.square()).rsqrt();                          // 1 / r
-    over_t = t * share / (1 / share + 1);
-    slope = (t * share).square() * share;
+    root = (1 + t.square()).sqrt();
+    part = 1 / (root * (1 + root));
+    over_t = t * part;
+    slope_over_t = t * ((1 + root) * part).cube();
     linear[k] = 2 * pi * (of_i1 * over_t).sum();
     weight[k] = 2 * pi * (of_i2 * t * over_t).sum();
-    result.relaxation_times[k] =
-        2 * pi *
-        (e[static_cast<std::size_t>(k)] * (of_i1 * (slope / t - over_t)).sum() + weights[k] * (of_i2 * slope).sum());
+    result.relaxation_times[k] = 2 * pi *
+                                 (e[static_cast<std::size_t>(k)] * (of_i1 * (slope_over_t - over_t)).sum() +
+                                  weights[k] * (of_i2 * t * slope_over_t).sum());
   }
   result.equilibrium_modulus = 4 * pi * e_inf * e_inf * of_i2.sum();
   for (Index k = 0; k < n; ++k) {

@@ -47,6 +47,12 @@ class Gradients(Table):
     strain_per_slope, storage_factors, loss_factors : float or ndarray, or None
         d mu / d ln of each, of strain factors; the last two are their rows `storage` and `loss`,
         shape mu.shape + (rows,).
+    poisson_ratio : float or ndarray
+        d mu / d ln of it: mu knows E / (1 - nu^2) alone.
+    gamma, friction_gamma, p, z_max, z_min : float or ndarray, or None
+        d mu / d ln of each, of a correction; of z_min over its size.
+    correction_rms_height, correction_q0 : float or ndarray, or None
+        The same of its `rms_height` and `q0` where it has its own: names that a spectrum has too.
     shear_stress, reference_velocity, width : float or ndarray, or None
         d mu / d ln of each, of the adhesion.
     density, heat_capacity, conductivity, contact_diameter : float or ndarray, or None
@@ -55,9 +61,8 @@ class Gradients(Table):
     macro_wavenumber, macro_area, interface_share : float or ndarray, or None
         The same, where they are given, and the last with adhesion.
     error_estimate : float or ndarray
-        Absolute error of a slope, and of the integral of a density's error: four times what a
-        finer grid changes, and 2e-4 of mu or so. Slopes over `q0`, `q1` and single rows of a
-        master curve, whose interpolant has kinks, have up to 1e-3 of mu more.
+        Absolute error of a slope, and of the integral of a density over any range: twice what a
+        finer grid changes, and 1e-4 of mu or so.
     """
 
     wavenumber: Array
@@ -79,6 +84,14 @@ class Gradients(Table):
     strain_per_slope: Any = None
     storage_factors: Array | None = None
     loss_factors: Array | None = None
+    poisson_ratio: Any = None
+    gamma: Any = None
+    friction_gamma: Any = None
+    p: Any = None
+    z_max: Any = None
+    z_min: Any = None
+    correction_rms_height: Any = None
+    correction_q0: Any = None
     shear_stress: Any = None
     reference_velocity: Any = None
     width: Any = None

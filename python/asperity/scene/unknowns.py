@@ -23,6 +23,8 @@ _NOT_PHYSICAL = ("solver", "uncertainty")
 _ADDED = ("surface.q1_per_m", "adhesion.shear_stress_pa")  # to a scene that does not name them
 _CUTOFFS = {"file", "contamination_size_m", "slope_cutoff"}  # with which q1 follows from others
 _OF_LAW = ("rms_height", "hurst", "q0", "q1", "rolloff")
+_OF_CORRECTION = {"gamma", "friction_gamma", "p", "z_max", "z_min"}
+_OF_CORRECTION |= {"correction_rms_height", "correction_q0"}
 _OF_SERIES = ("equilibrium_modulus", "moduli", "relaxation_times")
 
 Scale = Literal["plain", "ln"]
@@ -82,8 +84,11 @@ class Unknown:
             known = argument in _OF_LAW and not _CUTOFFS & table.keys()
         elif self.table == "rubber":
             known = argument in _OF_SERIES and "equilibrium_modulus_pa" in table
+        elif self.table == "correction":
+            argument = f"correction_{argument}" if argument in _OF_LAW else argument
+            known = argument in _OF_CORRECTION
         else:
-            known = self.table == "adhesion"
+            known = self.table == "adhesion" or argument == "poisson_ratio"
         slope = getattr(gradients, argument) if known else None
         return slope if slope is None or self.place is None else slope[..., self.place]
 

@@ -86,8 +86,8 @@ class PerssonTheory final : public Theory {
     return factor_ ? p * (*factor_)(p) : p;
   }
   [[nodiscard]] double p_s_slope(double g) const {
-    constexpr double step = 1e-5;  // relative
-    return g <= 0 ? 0 : (p_s(g * (1 + step)) - p_s(g * (1 - step))) / (2 * step * g);
+    const double p = p_of(g, form_), gamma = contact_.gamma;
+    return contact_slope(g, form_) * (factor_ ? gamma + 3 * (1 - gamma) * (p * p) : 1);
   }
   void integral_of(const double* g, Index n, double* f) const;
   void take_stress();
@@ -191,13 +191,18 @@ void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& res
       part += at_upper * (p_s(edge_[c + 1]) * slopes.edge.row(edge + 1)) -
               at_lower * (p_s(edge_[c]) * slopes.edge.row(edge));
       part = ratio_.segment(first, count).asDiagonal() * part;
-    } else {
+    } else {  // the nodes share what F rises
+      const double rise = f_edge_[c + 1] - f_edge_[c];
+      if (!(rise > 0)) continue;
+      RowVectorXd whole =
+          (p_s(edge_[c + 1]) * slopes.edge.row(edge + 1) - p_s(edge_[c]) * slopes.edge.row(edge)) / rise;
       for (Index i = 0; i < count; ++i) {
         const Index at = first + i;
-        const double g = g_at_load_[at], share = p_s(g);
-        if (!(share > 0)) continue;
-        part.row(i) = part_[at] * (along.i2.row(at) + along.scale + (p_s_slope(g) / share) * slopes.node.row(at));
+        if (!(ratio_[at] > 0 && stress_[at] > 0)) continue;
+        part.row(i) = along.i2.row(at) + (p_s_slope(g_at_load_[at]) / stress_[at]) * slopes.node.row(at);
+        whole -= part_[at] / ratio_[at] / rise * part.row(i);
       }
+      for (Index i = 0; i < count; ++i) part.row(i) = part_[first + i] * (part.row(i) + whole);
     }
   }
   result.part.topRows(n) += part_.head(n).asDiagonal() * along.ratio.topRows(n);
@@ -211,6 +216,7 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
   const Index n = g_.size();
   VectorXd by_node = VectorXd::Zero(n), by_edge = VectorXd::Zero(static_cast<Index>(cells.size()) + 1);
   result = {};
+  result.by_part = number.by_part;
   result.ratio = number.by_part.cwiseProduct(part_);
   result.i2.setZero(i2_.size());
   result.weight.setZero(i2_.size());
@@ -228,22 +234,24 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
       for (Index i = 0; i < count; ++i) by_node[first + i] = p_s(g_at_load_[first + i]) * by_f[i];
       by_edge[edge + 1] += p_s(edge_[c + 1]) * at_upper.dot(by_measure);
       by_edge[edge] -= p_s(edge_[c]) * at_lower.dot(by_measure);
-    } else {
+    } else {  // the nodes share what F rises
+      const double whole = result.ratio[first] + result.ratio[first + 1], rise = f_edge_[c + 1] - f_edge_[c];
+      if (!(rise > 0)) continue;
+      by_edge[edge + 1] += p_s(edge_[c + 1]) * whole / rise;
+      by_edge[edge] -= p_s(edge_[c]) * whole / rise;
       for (Index i = first; i < first + count; ++i) {
-        const double g = g_at_load_[i], share = p_s(g);
-        if (!(share > 0)) continue;
-        by_node[i] = result.ratio[i] * p_s_slope(g) / share;
-        result.weight[i] = result.ratio[i];
+        if (!(ratio_[i] > 0 && stress_[i] > 0)) continue;
+        result.weight[i] = result.ratio[i] - whole * (part_[i] / ratio_[i]) / rise;
+        by_node[i] = result.weight[i] * p_s_slope(g_at_load_[i]) / stress_[i];
       }
     }
   }
-  const double explicitly = result.weight.sum();  // dG has the scale, too
   const CorrectedG area = area_g_.at(g());
   by_edge[by_edge.size() - 1] += number.by_area * contact_slope(area.g, form_) * area.slope;
   const VectorXd through_g = back_through_g(by_node, by_edge);
   result.weight.head(n) += through_g;
   result.i2.head(n) = result.weight.head(n);
-  result.scale = explicitly + through_g.sum();
+  result.scale = through_g.sum();
   back_through_macro(number.by_macro * contact_slope(scale_ * g_macro_, form_), result);
 }
 

@@ -55,7 +55,7 @@ double RoughnessBelow::sum(const Reach& reach, const std::vector<double>& sums, 
 
 RoughnessGradient::RoughnessGradient(const ContactGrid& grid) : grid_(grid), below_(grid) {
   const ContactGrid::Beyond& beyond = grid.beyond();
-  if (!beyond.end) return;
+  if (!beyond.end || !(beyond.roughness->total() > 0)) return;
   window_ = beyond.roughness;
   const auto n = static_cast<Index>(grid.band_size());
   const double reached = std::exp(RoughnessWindow::half_length), q_e = window_->end(), q_c = window_->last_from();

@@ -82,6 +82,7 @@ StrainGradient::Slopes StrainGradient::operator()(const VectorXd& by_f, const Ve
     for (std::size_t i = 0; i < reach.share.size(); ++i)
       direct[static_cast<Index>(grid_.cells()[reach.cell].first + i)] += by_roughness_below * reach.share[i];
   }
+  result.beyond = of_edge[of_edge.size() - 1];
   by_roughness.head(n) += grid_.integrate_back(by_band, of_edge) + direct.cwiseProduct(grid_.weight());
   return result;
 }

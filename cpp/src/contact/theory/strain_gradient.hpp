@@ -20,6 +20,7 @@ class StrainGradient {
     double per_slope = 0;           // over ln strain_per_slope
     Eigen::VectorXd storage, loss;  // over ln of each row
     double end = 0;                 // over ln q_e, with which the nodes of the edges move
+    double beyond = 0;              // over the roughness of waves beyond the band: of nodes there alone
   };
   /// From slopes over ln f and ln g of all nodes; those over ln C are added to `by_roughness`.
   Slopes operator()(const Eigen::VectorXd& by_f, const Eigen::VectorXd& by_g, Eigen::VectorXd& by_roughness) const;
