@@ -16,9 +16,10 @@ _TICKS = 45  # degrees between the angles that are named
 
 
 def draw_directions(
-    axes: "Axes", curves: Sequence[Any], colours: Sequence[Any], *, labelled: bool
+    axes: "Axes", curves: Sequence[Any], colours: Sequence[Any], *, labelled: bool, band: str = ""
 ) -> None:
-    """Draw mu of curves over degrees, and the force across it: in polar axes its size."""
+    """Draw mu of curves over degrees, with its band, and the force across it: in polar axes its
+    size. `band` says what the band is."""
     from matplotlib.ticker import MultipleLocator
 
     polar = axes.name == "polar"
@@ -29,9 +30,14 @@ def draw_directions(
         axes.plot(angle, curve.mu, color=colour, linewidth=1.8, marker=marker, label=label)
         across = np.abs(curve.lateral) if polar else curve.lateral
         axes.plot(angle, across, "--", color=colour, linewidth=1.2)
+        if np.isfinite(curve.low).any():
+            axes.fill_between(angle, curve.low, curve.high, color=colour, alpha=0.2, linewidth=0)
     axes.plot([], [], color=grey(0.3), linewidth=1.8, label="along the sliding, $\\mu$")
-    kind = "across" if not polar else _ACROSS
-    axes.plot([], [], "--", color=grey(0.3), linewidth=1.2, label=kind)
+    if any(np.isfinite(curve.lateral).any() for curve in curves):
+        kind = "across" if not polar else _ACROSS
+        axes.plot([], [], "--", color=grey(0.3), linewidth=1.2, label=kind)
+    if band and any(np.isfinite(curve.low).any() for curve in curves):
+        axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=band)
     if polar:
         look_polar(axes)
         return

@@ -78,6 +78,11 @@ def abscissa_of(results: Sequence[Any], *, temperatures: bool) -> str:
     return PRESSURE if all(np.ptp(result.pressure) > 0 for result in results) else VELOCITY
 
 
+def is_polar(result: Any) -> bool:
+    """Whether a picture of a result is drawn over directions."""
+    return abscissa_of([result], temperatures=False) == DIRECTION
+
+
 def curves_of(
     results: Sequence[Any],
     names: Sequence[str],
@@ -169,7 +174,7 @@ def draw_friction(
     if not any(np.any(curve.adhesion > 0) for curve in curves):
         kinds = {"total": "-"}
     if abscissa == DIRECTION:
-        draw_directions(axes, curves, tints, labelled=not many)
+        draw_directions(axes, curves, tints, labelled=not many, band=band)
         return tints
     known = [c for c in curves if np.isfinite(c.model_error).any()]
     hatched = bool(model) and bool(known) and len(curves) <= _MOST_SHADED

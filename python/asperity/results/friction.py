@@ -204,10 +204,9 @@ class Friction(Table):
 
     @property
     def _is_polar(self) -> bool:
-        from asperity.draw.directions import DIRECTION
-        from asperity.draw.friction import abscissa_of
+        from asperity.draw.friction import is_polar
 
-        return abscissa_of([self], temperatures=False) == DIRECTION
+        return is_polar(self)
 
 
 _SMALLEST = 1e-4

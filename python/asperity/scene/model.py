@@ -310,7 +310,7 @@ class Scene:
     @contextmanager
     def _inputs(self) -> Iterator[tuple[Any, Any, Adhesion | None, dict[str, Any]]]:
         """Surface, rubber and adhesion as they are drawn, and the options of `friction`."""
-        held = ("poisson_ratio", "form", "strain_factors")
+        held = ("poisson_ratio", "form", "strain_factors", "direction")
         options = {name: self.options[name] for name in held if name in self.options}
         options["correction"] = self.correction
         rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn

@@ -27,6 +27,7 @@ from asperity.dma import AnyRubber, MasterCurveBuild, rubber_of
 from asperity.friction import Branch, Friction, friction, known_shift
 from asperity.heating import Heating
 from asperity.prony_fit import PronyFit
+from asperity.results.friction import OPTIONAL
 from asperity.rubber import Rubber
 from asperity.scan_contact import ScanContact
 from asperity.self_affine_fit import AnySpectrum, spectrum_of
@@ -78,6 +79,8 @@ class FrictionBand(Table):
         In (0, 1) [-].
     samples : int
         How many draws there were; 0 of a linear band.
+    direction : float or ndarray, or None
+        As of `Friction` [rad].
     notes : tuple of Note
         What `friction` says of the same points, since a band is no wiser than the rows and the
         modulus it is drawn from, and how many draws failed and were left out, if any.
@@ -90,6 +93,7 @@ class FrictionBand(Table):
     velocity: Any
     level: float
     samples: int
+    direction: Any = None
     notes: tuple[Note, ...] = ()
 
     def _columns(self) -> Columns:
@@ -101,6 +105,8 @@ class FrictionBand(Table):
             "pressure": Column(axes, self.pressure, "Pa", "nominal pressure"),
             "velocity": Column(axes, self.velocity, "m/s", "sliding velocity"),
         }
+        if self.direction is not None:
+            variables["direction"] = Column(axes, self.direction, *OPTIONAL["direction"])
         return Columns({}, variables, {"level": self.level, "samples": self.samples})
 
     @property
@@ -112,6 +118,12 @@ class FrictionBand(Table):
         from asperity.draw.friction import band_text, draw_result  # `import asperity` is quick
 
         draw_result(axes, self, band=band_text(self.level))
+
+    @property
+    def _is_polar(self) -> bool:
+        from asperity.draw.friction import is_polar
+
+        return is_polar(self)
 
 
 def friction_band(
@@ -134,6 +146,7 @@ def friction_band(
     heating: Heating | None = None,
     branch: Branch = "cold",
     method: Literal["draws", "linear"] = "draws",
+    direction: ArrayLike = 0.0,
 ) -> FrictionBand:
     """Return a band on mu, from the standard errors of its measured inputs.
 
@@ -141,7 +154,8 @@ def friction_band(
     ----------
     spectrum : SelfAffineFit, TabulatedSpectrum or SelfAffineSpectrum
         A fit is drawn from the covariance of its parameters, a table from the standard errors of
-        its rows (of logarithmic bins, ten a decade). A plain spectrum has no errors.
+        its rows (of logarithmic bins, ten a decade), those of all directions alike. A plain
+        spectrum has no errors.
     rubber : MasterCurveBuild, MasterCurve or PronySeries
         log10 a_T of a build is drawn from its covariance, and the coefficients of the spline
         through the points moved there from theirs: the scatter of the points about the spline,
@@ -176,6 +190,8 @@ def friction_band(
         twenty times as fast; `samples` and `seed` are without effect. A note (`code`
         "linear-band-off") says where mu curves too much within the errors. Not with heating, strain
         factors, directional spectra or ScanContact.
+    direction : array_like
+        As for `friction` [rad].
 
     Returns
     -------
@@ -214,6 +230,7 @@ def friction_band(
     given_at: dict[str, Any] = {"pressure": pressure, "velocity": velocity}
     if temperature is not None:
         given_at["temperature"] = temperature
+    (given_at if np.ndim(direction) else options)["direction"] = direction
     found = friction(plain, of_build, adhesion=adhesion, shift=shift, **given_at, **options)
     shape, columns = broadcast(**given_at)
     at = dict(zip(given_at, map(np.atleast_1d, columns), strict=True))
@@ -246,6 +263,7 @@ def _band(found: Friction, band: Bounds, shape: Shape, level: float, samples: in
         velocity=found.velocity,
         level=float(level),
         samples=int(samples),
+        direction=found.direction,
         notes=(*found.notes, *band.notes),
     )
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.adhesion import Adhesion, AdhesionFit
+from asperity.base.arguments import known
 from asperity.dma import MasterCurveBuild, draw_master_curve
 from asperity.rubber import MasterCurve, Rubber
 from asperity.self_affine_fit import SelfAffineFit
@@ -48,11 +49,13 @@ class Drawn(Generic[Input]):
 
 def drawn_spectrum(source: Spectrum | SelfAffineFit) -> Drawn[Spectrum]:
     """A fit from the covariance of its parameters; a table from the errors of its rows, in bins: a
-    band needs no more of them."""
+    band needs no more of them. Rows that know directions stay, and move with the bins."""
     if isinstance(source, SelfAffineFit):
         return Drawn[Spectrum](source.spectrum, partial(draw_fit, source))
     if isinstance(source, TabulatedSpectrum) and source.standard_error is not None:
         table = source.log_binned(per_decade=_ROWS_PER_DECADE)
+        if source.is_directional:
+            return Drawn[Spectrum](source, partial(_draw_rings, source, table))
         return Drawn[Spectrum](table, partial(_draw_rows, table), source)
     return Drawn[Spectrum](source)
 
@@ -76,7 +79,43 @@ def _draw_rows(table: TabulatedSpectrum, rng: Generator) -> TabulatedSpectrum:
     logarithm = row_covariance(table)
     mean = -np.diag(logarithm) / 2
     density = table.density * np.exp(rng.multivariate_normal(mean, logarithm, method="eigh"))
-    return TabulatedSpectrum(wavenumber=table.wavenumber, density=density, q1=table.q1)
+    return rows_like(table, density)
+
+
+def _draw_rings(
+    table: TabulatedSpectrum, bins: TabulatedSpectrum, rng: Generator
+) -> TabulatedSpectrum:
+    """Waves of all directions scatter alike, those of a bin as its error says: by as many harmonics
+    of ln C over a ring as the table has, each with twice the variance of the mean."""
+    cosine, sine = known(table.cosine), known(table.sine)
+    count = cosine.shape[1]
+    twice = 2 * np.pi * np.arange(8 * count) / (8 * count)  # the angle
+    each = np.arange(1, count + 1)[:, None] * twice
+    waves = np.concatenate([np.cos(each), np.sin(each)])
+    plain = 1 + 2 * np.concatenate([cosine, sine], axis=1) @ waves
+    covariance = row_covariance(bins)
+    changes = rng.multivariate_normal(0 * bins.density, covariance, 1 + 2 * count, method="eigh")
+    place = np.log(table.wavenumber), np.log(bins.wavenumber)
+    mean, *harmonics = (np.interp(*place, change) for change in changes)
+    variance = np.interp(*place, np.diag(covariance))
+    # the error of a ring is that of waves as unlike as those of its directions
+    alike = 1 / np.sqrt((plain**2).mean(axis=1))[:, None]
+    off = alike * (mean[:, None] + np.sqrt(2) * np.transpose(harmonics) @ waves)
+    times = np.exp(off - alike**2 * (0.5 + count) * variance[:, None])  # of a mean of 1
+    drawn = plain + np.maximum(plain, 0.0) * (times - 1)  # few harmonics may leave it below 0
+    level = drawn.mean(axis=1)
+    cosine, sine = np.split(drawn @ waves.T / (8 * count) / level[:, None], 2, axis=1)
+    size = np.maximum(1.0, np.hypot(cosine, sine))
+    return rows_like(table, table.density * level, cosine / size, sine / size)
+
+
+def rows_like(
+    table: TabulatedSpectrum, density: Any, cosine: Any = None, sine: Any = None
+) -> TabulatedSpectrum:
+    """Rows with other densities on the band of a table."""
+    return TabulatedSpectrum(
+        wavenumber=table.wavenumber, density=density, cosine=cosine, sine=sine, q1=table.q1
+    )
 
 
 def fit_covariance(fit: SelfAffineFit) -> NDArray[np.float64]:

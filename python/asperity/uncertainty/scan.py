@@ -1,5 +1,7 @@
 """What the contact of a scan carries into a band on mu."""
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -23,14 +25,16 @@ def beyond_scan(spectrum: Drawn[Spectrum], scan: ScanContact) -> Drawn[Spectrum]
 
     def drawn(rng: Generator) -> Spectrum:
         one = draw(rng)
+        harmonics: dict[str, Any] = {}
         if isinstance(plain, TabulatedSpectrum):
             q = plain.wavenumber
+            harmonics = {"cosine": plain.cosine, "sine": plain.sine}
         else:
             rows = 2 + int(_ROWS_PER_DECADE * np.log10(plain.q1 / plain.q0))
             q = np.geomspace(plain.q0, plain.q1, rows)
         known = (q >= low) & (q <= high)
         density = np.where(known, plain.at(q), one.at(q))
-        return TabulatedSpectrum(wavenumber=q, density=density, q1=plain.q1)
+        return TabulatedSpectrum(wavenumber=q, density=density, q1=plain.q1, **harmonics)
 
     return Drawn[Spectrum](plain, drawn, spectrum.whole)
 

@@ -78,3 +78,41 @@ def test_factors_of_strain_are_drawn_as_a_whole():
     assert band.upper / band.lower < 1.3 * mu[1] / mu[0]
     with pytest.raises(asperity.InvalidInput, match="none has errors"):
         asperity.friction_band(road, rubber, **scene, strain_factors=asperity.StrainFactors(**rows))
+
+
+def gaussian_map(seed, law, points=128):
+    """Heights whose waves are all random, as those of a measured surface are."""
+    q = 2 * np.pi * np.fft.fftfreq(points, 1 / points)  # a map of side 1
+    q_x, q_y = np.meshgrid(q, q)
+    size = np.hypot(q_x, q_y)
+    inside = (size > law.q0) & (size < law.q1)
+    amplitude = np.zeros_like(size)
+    amplitude[inside] = law.toward(size[inside], np.arctan2(q_y[inside], q_x[inside])) ** 0.5
+    noise = np.fft.fft2(np.random.default_rng(seed).standard_normal(size.shape))
+    heights = 2 * np.pi * points * np.fft.ifft2(noise * amplitude).real
+    return asperity.HeightMap(heights, pixel_size=1 / points)
+
+
+def test_bands_of_directions_are_as_wide_as_scans_scatter():
+    law = asperity.SelfAffineSpectrum(
+        rms_height=1e-3, hurst=0.8, q0=3.5 * 2 * np.pi, q1=58 * 2 * np.pi, axis_ratio=2.5, lay=1.9
+    )
+    rubber = asperity.PronySeries(
+        equilibrium_modulus=1e6, moduli=[9e6, 2e7], relaxation_times=[1e-1, 1e-3]
+    )
+    at = {"pressure": 2e5, "velocity": 0.1, "correction": asperity.PartialContact()}
+    at["direction"] = np.radians([0, 60, 110, 160])
+    how = {"window": "none", "detrend": None, "directional": True}
+    spectra = [
+        asperity.power_spectrum(gaussian_map(seed, law), **how).truncated(q0=4 * 2 * np.pi)
+        for seed in range(24)
+    ]
+    mu = np.array([asperity.friction(one, rubber, **at).mu for one in spectra])
+    bands = [asperity.friction_band(one, rubber, **at, samples=40) for one in spectra[:6]]
+    np.testing.assert_array_equal([band.mu for band in bands], mu[:6])
+    wide = np.mean([np.log(band.upper / band.lower) for band in bands], axis=0) / (2 * 1.96)
+    scatter = np.log(mu).std(axis=0, ddof=1)
+    np.testing.assert_allclose(wide, scatter, rtol=0.4)  # three standard errors of 24 maps
+    one = asperity.friction_band(spectra[0], rubber, **{**at, "direction": 0.0}, samples=40)
+    assert (one.lower, one.upper) == (bands[0].lower[0], bands[0].upper[0])
+    assert one.direction == 0
