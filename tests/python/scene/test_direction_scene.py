@@ -115,3 +115,16 @@ def test_a_list_of_directions_is_a_table_and_a_polar_picture(tmp_path: Path) -> 
         )
     with pytest.raises(InvalidInput, match="direction_deg"):
         load_scene(path)
+
+
+def test_a_band_is_that_of_the_direction(ridged: Path) -> None:
+    scan = SCAN + "directional = true\n"
+    text = scan + RUBBER + TURNED + "[uncertainty]\nsamples = 20\nseed = 3\n"
+    scene = load_scene(written(ridged, text), for_friction=True)
+    at = {"pressure": scene.pressure[0], "velocity": scene.velocity[:1]}
+    found = scene.band_at(np.atleast_1d(at["pressure"]), at["velocity"])
+    band = asperity.friction_band(
+        scene.spectrum, scene.rubber, **at, direction=np.radians(75), samples=20, seed=3
+    )
+    np.testing.assert_allclose(found.lower * band.mu, band.lower, rtol=1e-12)
+    np.testing.assert_allclose(found.upper * band.mu, band.upper, rtol=1e-12)
