@@ -95,7 +95,7 @@ GradientLevel::GradientLevel(const GradientScene& scene, std::size_t number)
     : scene_(scene),
       window_(scene.surface),
       grid_(scene.surface, grid_options(scene, number, window_, cut_)),
-      theory_(contact_theory(scene.model, scene.spectrum, scene.surface, grid_)),
+      theory_(contact_theory(scene.model, scene.spectrum, scene.surface, grid_, nullptr)),
       chain_(scene, grid_),
       angular_(scene.rubber, chain_.factors()),
       known_(known_range(scene.rubber)) {

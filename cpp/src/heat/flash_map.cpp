@@ -25,7 +25,7 @@ FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
       grid_(grid),
       waves_(scene.rubber, scene.model, scene.surface, harmonics_of(scene.spectrum)),
       angular_(scene.rubber, waves_.factors(grid), waves_.rings(grid)),
-      contact_(contact_theory(scene.model, scene.spectrum, scene.surface, grid)),
+      contact_(contact_theory(scene.model, scene.spectrum, scene.surface, grid, waves_.directions())),
       unlimited_(unlimited(scene.rubber)),
       unlimited_waves_(unlimited_ ? *unlimited_ : scene.rubber, waves_),
       known_(known_range(scene.rubber)),

@@ -126,23 +126,40 @@ HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail
 }
 
 void HarmonicTable::operator()(std::span<const double> w, std::size_t count, double* loss, double* square) const {
+  constexpr std::size_t together = AngularPolynomials::together;
   const std::size_t n = w.size();
+  const AngularPolynomials* of[together];
+  double u[together];
+  Pair sum[together];
   std::size_t c = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double at = std::clamp(w[i], cells_.front().low, cells_.back().high);
-    if (at < cells_[c].low || at > cells_[c].high) {
-      const auto above = std::ranges::upper_bound(cells_, at, {}, &Cell::low) - cells_.begin();
-      c = static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1)) - 1;
+  for (std::size_t from = 0; from < n; from += together) {
+    const std::size_t here = std::min(together, n - from);
+    for (std::size_t i = 0; i < together; ++i) {
+      const double at = std::clamp(w[from + (i < here ? i : 0)], cells_.front().low, cells_.back().high);
+      c = cell_of(at, c);
+      const Cell& cell = cells_[c];
+      const double share = std::fmax(0, (at - cell.panel_low) * cell.inverse_length);
+      of[i] = &of_[c * count_];
+      u[i] = ((cell.root ? std::sqrt(share) : share) - cell.from) * cell.inverse_step - 1;
     }
-    const Cell& cell = cells_[c];
-    const double share = std::fmax(0, (at - cell.panel_low) * cell.inverse_length);
-    const double u = ((cell.root ? std::sqrt(share) : share) - cell.from) * cell.inverse_step - 1;
     for (std::size_t k = 0; k < count; ++k) {
-      const Pair sum = of_[c * count_ + k](u);
-      loss[k * n + i] = sum[0];
-      square[k * n + i] = sum[1];
+      AngularPolynomials::at(of, u, sum);
+      for (std::size_t i = 0; i < together; ++i) ++of[i];
+      for (std::size_t i = 0; i < here; ++i) {
+        loss[k * n + from + i] = sum[i][0];
+        square[k * n + from + i] = sum[i][1];
+      }
     }
   }
+}
+
+/// From the cell of a frequency beside it.
+std::size_t HarmonicTable::cell_of(double w, std::size_t c) const {
+  constexpr std::size_t near = 4;
+  for (const std::size_t end = std::min(c + near, cells_.size()); c < end; ++c)
+    if (w >= cells_[c].low && w <= cells_[c].high) return c;
+  const auto above = std::ranges::upper_bound(cells_, w, {}, &Cell::low) - cells_.begin();
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1)) - 1;
 }
 
 const HarmonicTable& HarmonicTables::of(const AngularTable& table, const ModulusPiece& tail, std::size_t count) const {

@@ -33,6 +33,8 @@ class HarmonicTable {
     double from, inverse_step, panel_low, inverse_length;
     bool root;
   };
+  [[nodiscard]] std::size_t cell_of(double w, std::size_t c) const;
+
   std::size_t count_;
   std::vector<Cell> cells_;
   std::vector<AngularPolynomials> of_;  // count_ a cell

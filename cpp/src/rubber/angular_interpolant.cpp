@@ -129,7 +129,7 @@ AngularIntegrals AngularTable::operator()(double w) const {
 
 AngularTable::Any AngularTable::operator()(std::span<const double> w, double* i1, double* i2,
                                            double* i1_outside) const {
-  constexpr std::size_t together = 8;  // polynomials, whose terms wait for each other
+  constexpr std::size_t together = AngularPolynomials::together;
   Any any;
   std::size_t panel = 0;
   const Part* of = nullptr;
@@ -137,6 +137,7 @@ AngularTable::Any AngularTable::operator()(std::span<const double> w, double* i1
   for (std::size_t from = 0; from < w.size(); from += together) {
     const std::size_t n = std::min(together, w.size() - from);
     const Part* part[together];
+    const AngularPolynomials* all[together];
     double u[together];
     for (std::size_t i = 0; i < together; ++i) {
       double at = w[from + std::min(i, n - 1)];
@@ -151,12 +152,11 @@ AngularTable::Any AngularTable::operator()(std::span<const double> w, double* i1
         any.outside |= of->has_outside;
       }
       part[i] = of;
+      all[i] = &of->all;
       u[i] = of->place(at);
     }
     Pair sum[together];
-    for (std::size_t i = 0; i < together; ++i) sum[i] = part[i]->all.coefficient[order - 1];
-    for (std::size_t k = order - 1; k-- > 0;)
-      for (std::size_t i = 0; i < together; ++i) sum[i] = sum[i] * u[i] + part[i]->all.coefficient[k];
+    AngularPolynomials::at(all, u, sum);
     for (std::size_t i = 0; i < n; ++i) {
       i1[from + i] = sum[i][0];
       i2[from + i] = sum[i][1];

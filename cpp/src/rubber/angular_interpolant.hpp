@@ -26,6 +26,13 @@ struct AngularPolynomials {
     for (std::size_t k = order - 1; k-- > 0;) sum = sum * u + coefficient[k];
     return sum;
   }
+  /// Several at once, as each term waits for the one before.
+  static constexpr std::size_t together = 8;
+  static void at(const AngularPolynomials* const (&of)[together], const double (&u)[together], Pair (&sum)[together]) {
+    for (std::size_t i = 0; i < together; ++i) sum[i] = of[i]->coefficient[order - 1];
+    for (std::size_t k = order - 1; k-- > 0;)
+      for (std::size_t i = 0; i < together; ++i) sum[i] = sum[i] * u[i] + of[i]->coefficient[k];
+  }
 };
 
 /// I1 and I2 to 1e-12, the parts that come from outside to 1e-10 of them. Where rows stand so near to each other that

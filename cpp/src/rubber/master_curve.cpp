@@ -1,5 +1,6 @@
 // A measured modulus: Steffen's monotone interpolant of ln E' and ln E'' in ln w, at most one decade of extrapolation
 // where it is asked for, and the angular integrals over both. M. Steffen, Astron. Astrophys. 239, 443 (1990).
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <mutex>
@@ -166,8 +167,8 @@ void MasterCurve::angular_harmonics(std::span<const double> w, std::size_t count
                                     std::span<double> square) const {
   require_harmonics(w, count, loss, square);
   if (w.empty()) return;
-  const auto [lowest, highest] = std::ranges::minmax(w);
-  for (const double one : {lowest, highest}) table_->check(one);
+  const Eigen::Map<const Eigen::ArrayXd> at(w.data(), static_cast<Eigen::Index>(w.size()));
+  for (const double one : {at.minCoeff(), at.maxCoeff()}) table_->check(one);
   table_->harmonics.of(table_->angular, table_->pieces.front(), count)(w, count, loss.data(), square.data());
 }
 

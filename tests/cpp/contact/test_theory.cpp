@@ -53,7 +53,7 @@ void check_slopes(const Spectrum& spectrum, const Rubber& rubber, const ContactM
                              .window = std::holds_alternative<PartialContact>(model.correction) ? &window : nullptr};
   if (by_pieces) options.pieces = &roughness_pieces(std::get<TabulatedSpectrum>(spectrum), 2);
   const ContactGrid grid(surface, options);
-  const std::unique_ptr<Theory> theory = contact_theory(model, spectrum, surface, grid);
+  const std::unique_ptr<Theory> theory = contact_theory(model, spectrum, surface, grid, nullptr);
   const auto n = static_cast<Index>(grid.size());
   ModulusSlopes along{MatrixXd(n, 3), MatrixXd(n, 3), RowVectorXd(3)};
   for (Index d = 0; d < 3; ++d) {

@@ -128,7 +128,8 @@ Rings Directions::at_nodes(const ContactGrid& grid) const {
 
 Directions::Needed Directions::needed(const Rubber& rubber, const FrequencyRange& range, double least,
                                       bool parted) const {
-  constexpr double longest = 0.5;  // in ln w, over which shares of harmonics change little
+  if (count() == 1) return {1, 0};  // which is quicker than to see whether it matters
+  constexpr double longest = 0.5;   // in ln w, over which shares of harmonics change little
   const double length = std::log(range.highest / range.lowest);
   const auto steps = static_cast<std::size_t>(std::ceil(length / longest)) + 1, n = (steps + 4) / 4 * 4;
   std::vector<double> w;

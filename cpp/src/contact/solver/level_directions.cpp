@@ -44,8 +44,11 @@ void LevelSolver::add_directions_of_pieces(Level& level, std::span<double> of_lo
 }
 
 void LevelSolver::check_directions(const Level& level) const {
-  const auto& weight = level.grid->weight();
-  for (std::size_t i = 0; rings_of_ && i < level.grid->band_size(); ++i)
+  if (!rings_of_) return;
+  const VectorXd& weight = level.grid->weight();
+  const Eigen::Map<const Eigen::ArrayXd> i2(level.i2.data(), static_cast<Index>(level.grid->band_size()));
+  if ((weight.array() > 0).select(i2, 1.0).minCoeff() > 0) return;
+  for (std::size_t i = 0; i < level.grid->band_size(); ++i)
     if (weight[static_cast<Index>(i)] > 0 && !(level.i2[i] > 0))
       throw InvalidInput(argument("spectrum") +
                          ": its harmonics at wavenumber = " + show(level.grid->wavenumber()[i], 6) +
@@ -53,19 +56,20 @@ void LevelSolver::check_directions(const Level& level) const {
                          "fewer of them, or wider rings");
 }
 
-double LevelSolver::across(const Level& level, const ContactSums& sums) const {
+double LevelSolver::across(const Level& level, const ContactSums& sums, const VectorXd& steering) const {
   if (!rings_of_ || !(sums.friction > 0)) return 0;
   const ContactGrid& grid = *level.grid;
   const VectorXd &stress = level.theory->stress(), &part = level.theory->part();
   const bool by_stress = window_ && grid.pieces();
   const auto n = static_cast<Index>(by_stress ? grid.band_size() : grid.size());
-  Eigen::ArrayXd lateral = Eigen::Map<const Eigen::ArrayXd>(level.across.data(), n);
-  if (const VectorXd steering = level.theory->steering(); steering.size() > 0)
-    lateral.head(steering.size()) *= steering.array();
-  const Eigen::Map<const Eigen::ArrayXd> i1(level.i1.data(), n);
-  if (!by_stress) return (i1 != 0).select(part.head(n).array() * lateral / i1, 0).sum() / scale_;
+  const Eigen::Map<const Eigen::ArrayXd> lateral(level.across.data(), n), i1(level.i1.data(), n);
+  const auto steered = [&](const auto& terms) {
+    const Index band = steering.size();
+    return (terms.head(band) * steering.array()).sum() + terms.tail(n - band).sum();
+  };
+  if (!by_stress) return steered((i1 != 0).select(part.head(n).array() * lateral / i1, 0)) / scale_;
   const double edges = sums.edges * grid.beyond().end->window * edges_.across;
-  return edges + (grid.weight().array() * stress.array() * lateral).sum();
+  return edges + steered(grid.weight().array() * stress.array() * lateral);
 }
 
 }  // namespace asperity

@@ -63,7 +63,7 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surf
   const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
   const bool many_rows = table && table->wavenumber().size() >= least_rows;
   if ((many_rows || (options.panels && !analytic_)) && model.rtol >= least_rtol && !options.parts)
-    pieces_.resize(rings_of_ ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels);
+    pieces_.resize(rings_of_ || waves.softening() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels);
   if (!options.panels) return;
   panels_.resize(most_levels);
   // differences of coarser grids are small by chance where a front is thin, which PartialContact does not have
@@ -169,7 +169,7 @@ void LevelSolver::lay_out(Levels& levels, std::size_t number) {
   level.grid = std::make_unique<ContactGrid>(surface_, options);
   level.factors = waves_.factors(*level.grid);
   level.rings = waves_.rings(*level.grid);
-  level.theory = contact_theory(model_, spectrum_, surface_, *level.grid);
+  level.theory = contact_theory(model_, spectrum_, surface_, *level.grid, waves_.directions());
   if (number == 0) return;
   if (!levels[number - 1].grid) lay_out(levels, number - 1);
   take_common_ends(level, levels[number - 1]);
@@ -335,7 +335,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     g_ = level.theory->unit_g() * scale_;
     error_ = std::fmax(error, (by_pieces ? least_error : least_on_panels) * model_.rtol);
     hysteresis_ = {mu_factor_ * now.friction, mu_factor_ * now.friction * error_, mu_factor_ * now.friction * outside,
-                   mu_factor_ * lateral};
+                   rings_of_ ? mu_factor_ * across(level, now, level.theory->steering()) : 0};
     solved_ = &level;
     return true;
   }

@@ -81,8 +81,8 @@ class LevelSolver {
   [[nodiscard]] static double apart(const Level& coarse, const Level& fine);
   [[nodiscard]] double beside_knots(const Level& level, const ContactSums& sums);
   [[nodiscard]] double outside_share(const Level& level, const ContactSums& sums) const;
-  /// The force across of a level, as the sum of friction.
-  [[nodiscard]] double across(const Level& level, const ContactSums& sums) const;
+  /// The force across of a level, as the sum of friction; with all directions of the roughness unless told how many.
+  [[nodiscard]] double across(const Level& level, const ContactSums& sums, const Eigen::VectorXd& steering = {}) const;
   [[nodiscard]] AngularIntegrals modulus(double wavenumber, Waves waves = Waves::of_roughness) const;
 
   const Spectrum& spectrum_;

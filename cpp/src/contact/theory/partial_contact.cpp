@@ -318,11 +318,11 @@ void PartialContactTheory::gradient(const ContactNumber& number, ContactGradient
 }
 
 VectorXd PartialContactTheory::steering() const {
-  const VectorXd g = kappa_ * scale_ * g_;
-  VectorXd share(g.size());
-  contact_shares(g.data(), static_cast<std::size_t>(g.size()), share.data());
+  VectorXd share = kappa_ * scale_ * g_;
+  contact_shares(share.data(), static_cast<std::size_t>(share.size()), share.data());
   static_assert(partial_contact::steering == 0.125);
-  return share.cwiseSqrt().cwiseSqrt().cwiseSqrt();
+  share = share.cwiseSqrt().cwiseSqrt().cwiseSqrt();
+  return share;
 }
 
 double PartialContactTheory::stress_at(double g, double wavenumber, double i2) const {

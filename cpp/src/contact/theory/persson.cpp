@@ -258,11 +258,11 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
 }  // namespace
 
 std::unique_ptr<Theory> contact_theory(const ContactModel& model, const Spectrum& spectrum,
-                                       std::span<const Segment> surface, const ContactGrid& grid) {
+                                       std::span<const Segment> surface, const ContactGrid& grid,
+                                       const Directions* directions) {
   if (std::holds_alternative<PartialContact>(model.correction)) {
-    const TabulatedSpectrum* const table = harmonics_of(spectrum);
-    if (!table) return partial_contact_theory(grid, 1);
-    const Rings mean = Directions(*table, surface, model.direction).mean();
+    if (!directions) return partial_contact_theory(grid, 1);
+    const Rings& mean = directions->mean();
     return partial_contact_theory(grid, partial_contact::crossed_edges(mean.along[0], mean.across[0]));
   }
   return std::make_unique<PerssonTheory>(model, spectrum, surface, grid);

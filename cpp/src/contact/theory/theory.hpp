@@ -130,9 +130,12 @@ class Theory {
   std::vector<double> g_edge_;
 };
 
-/// Persson's P with S, or the rule of PartialContact.
+class Directions;
+
+/// Persson's P with S, or the rule of PartialContact, over directions where there are any.
 std::unique_ptr<Theory> contact_theory(const ContactModel& model, const Spectrum& spectrum,
-                                       std::span<const Segment> surface, const ContactGrid& grid);
+                                       std::span<const Segment> surface, const ContactGrid& grid,
+                                       const Directions* directions);
 
 /// The rule of PartialContact; `crossed` edges over those of isotropic roughness.
 std::unique_ptr<Theory> partial_contact_theory(const ContactGrid& grid, double crossed);
