@@ -82,7 +82,8 @@ GammaGradient::GammaGradient(const ContactModel& model, const Spectrum& spectrum
     : form_(model.form),
       less_(with_gamma(model, 1 - step), spectrum, surface, surface.back().b),
       more_(with_gamma(model, 1 + step), spectrum, surface, surface.back().b) {
-  if (s_in_integrand(model.correction)) without_ = contact_theory(with_gamma(model, 0), spectrum, surface, grid);
+  if (s_in_integrand(model.correction))
+    without_ = contact_theory(with_gamma(model, 0), spectrum, surface, grid, nullptr);
 }
 
 double GammaGradient::operator()(const NodeModulus& modulus, const ContactGradient& of, double by_area, double g) {
