@@ -340,21 +340,41 @@ void RoughnessPieces::add_piece(const Points& p, double upper) {
 
 namespace {
 
-struct PiecesOfTable : TableSurface::Derived {
+/// The levels of a surface, each made when first asked for.
+struct Levels : TableSurface::Derived {
   std::array<std::once_flag, RoughnessPieces::levels_with_rows> made;
   std::array<std::unique_ptr<const RoughnessPieces>, RoughnessPieces::levels_with_rows> pieces;
+  const RoughnessPieces& at(std::size_t level, std::span<const Segment> surface, const TabulatedSpectrum* directions) {
+    std::call_once(made[level], [&] {
+      pieces[level] = std::make_unique<RoughnessPieces>(surface, level, std::span<const double>(), directions);
+    });
+    return *pieces[level];
+  }
+};
+
+struct LevelsOfLaw : Levels {
+  SelfAffineSpectrum law;
+  std::vector<Segment> surface;
+  explicit LevelsOfLaw(const SelfAffineSpectrum& of) : law(of), surface(segments(of)) {}
 };
 
 }  // namespace
 
 const RoughnessPieces& roughness_pieces(const TabulatedSpectrum& table, std::size_t level) {
-  auto& all = table.surface().derived<PiecesOfTable>();
-  std::call_once(all.made[level], [&] {
-    all.pieces[level] =
-        std::make_unique<RoughnessPieces>(table.surface().segments(table), level, std::span<const double>(),
-                                          table.harmonics().count > 0 ? &table : nullptr);
-  });
-  return *all.pieces[level];
+  return table.surface().derived<Levels>().at(level, table.surface().segments(table),
+                                              table.harmonics().count > 0 ? &table : nullptr);
+}
+
+std::shared_ptr<const RoughnessPieces> roughness_pieces(const SelfAffineSpectrum& law, std::size_t level) {
+  static std::mutex guard;
+  static std::shared_ptr<LevelsOfLaw> last;
+  std::shared_ptr<LevelsOfLaw> levels;
+  {
+    const std::scoped_lock lock(guard);
+    if (!last || last->law != law) last = std::make_shared<LevelsOfLaw>(law);
+    levels = last;
+  }
+  return {levels, &levels->at(level, levels->surface, nullptr)};
 }
 
 }  // namespace asperity

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -82,5 +83,8 @@ class RoughnessPieces {
 
 /// Those of a table, made when first asked for and kept with it; each level finer than the one before.
 const RoughnessPieces& roughness_pieces(const TabulatedSpectrum& table, std::size_t level);
+
+/// Those of a law. The last law's are kept, for calls of one point each.
+std::shared_ptr<const RoughnessPieces> roughness_pieces(const SelfAffineSpectrum& law, std::size_t level);
 
 }  // namespace asperity

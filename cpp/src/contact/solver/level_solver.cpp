@@ -151,8 +151,10 @@ void LevelSolver::lay_out(Levels& levels, std::size_t number) {
   ContactGridOptions options{.poisson_ratio = model_.poisson_ratio};
   if (&levels == &pieces_) {
     const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum_);
-    if (!table || !waves_.kinks().empty())
-      level.pieces = std::make_unique<RoughnessPieces>(surface_, number, waves_.kinks(), rings_of_);
+    if (!table && !rings_of_ && waves_.kinks().empty())
+      level.pieces = roughness_pieces(std::get<SelfAffineSpectrum>(spectrum_), number);
+    else if (!table || !waves_.kinks().empty())
+      level.pieces = std::make_shared<RoughnessPieces>(surface_, number, waves_.kinks(), rings_of_);
     options.pieces = level.pieces ? level.pieces.get() : &roughness_pieces(*table, number);
     if (window_) options.window = &options.pieces->window();
     options.edge_nodes = false;

@@ -52,7 +52,7 @@ class LevelSolver {
 
  private:
   struct Level {
-    std::unique_ptr<RoughnessPieces> pieces;  // of its own: of a closed form, or where the waves' factors have kinks
+    std::shared_ptr<const RoughnessPieces> pieces;  // of a closed form, or its own where the waves' factors have kinks
     std::unique_ptr<ContactGrid> grid;
     std::unique_ptr<Theory> theory;
     std::vector<std::array<Eigen::Index, 2>> common_ends;  // of cells of the level before, and of this one
