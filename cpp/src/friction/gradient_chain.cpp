@@ -203,7 +203,7 @@ void GradientChain::add_modulus(const MuSlopes& mu, const IntegralSlopes& integr
                                 PointGradient& result) const {
   const auto* const series = std::get_if<PronySeries>(&scene_.rubber);
   SeriesGradient terms;
-  if (series) terms = series_gradient(*series, integrals);
+  if (series) terms = (*scene_.terms)(integrals);
   if (shift.macro_wavenumber > 0) {
     const double by_modulus = 2 * mu.of.scale * shift.pressure;  // d mu / d ln |E|
     const double w = shift.velocity * shift.macro_wavenumber;

@@ -15,6 +15,7 @@
 #include "friction/correction_gradient.hpp"
 #include "heat/angular_slopes.hpp"
 #include "rubber/modulus_gradient.hpp"
+#include "rubber/series_gradient.hpp"
 
 namespace asperity {
 
@@ -27,6 +28,7 @@ struct GradientScene {
   std::span<const Segment> surface;
   const std::vector<double>& rows;  // of C [1/m]
   const ModulusGradient& modulus;
+  const std::optional<SeriesSlopes>& terms;  // of a series
 };
 
 /// Slopes of ln p_T over ln of the pressure and of what it has of the roughness; over the modulus it has that over the

@@ -11,7 +11,6 @@
 #include <numbers>
 
 #include "numerics/gauss_legendre.hpp"
-#include "rubber/loss_part.hpp"
 #include "rubber/unlimited_rubber.hpp"
 
 namespace asperity {
@@ -266,55 +265,6 @@ void ModulusGradient::add_at(double w, double by_storage, double by_loss, Vector
   const Eigen::Vector4d powers(1, x, x * x, x * x * x);
   storage.segment(stretch.first, stretch.count) += by_storage * (stretch.storage * powers).head(stretch.count);
   loss.segment(stretch.first, stretch.count) += by_loss * (stretch.loss * powers).head(stretch.count);
-}
-
-// I1 = 2 pi sum_k E_k s_k / t_k and I2 = 2 pi (E_inf^2 + sum_k w_k s_k), w_k = 2 E_k (E_inf + sum_l E_l / (1 + tau_k /
-// tau_l)), t_k = w tau_k, s_k = 1 - 1 / sqrt(1 + t_k^2), of which ds / d ln t = t^2 / (1 + t^2)^(3/2).
-SeriesGradient series_gradient(const PronySeries& series, const IntegralSlopes& of) {
-  const std::vector<double>&e = series.moduli(), &tau = series.relaxation_times();
-  const auto n = static_cast<Index>(e.size());
-  const double e_inf = series.equilibrium_modulus();
-  // of the number: over E_k as it stands in I1 and over w_k, and over ln t_k
-  VectorXd linear = VectorXd::Zero(n), weight = VectorXd::Zero(n);
-  SeriesGradient result{0, VectorXd::Zero(n), VectorXd::Zero(n)};
-  const auto weights = VectorXd::Map(series.weights().data(), n);
-  // of I2 as a whole, and of its part by E'' what it has beside that
-  std::vector<double> beside(of.w.size());
-  for (std::size_t j = 0; j < beside.size(); ++j) beside[j] = of.loss[j] - of.storage[j];
-  const auto size = static_cast<Index>(of.w.size());
-  const auto of_w = Eigen::ArrayXd::Map(of.w.data(), size), of_i1 = Eigen::ArrayXd::Map(of.i1.data(), size),
-             of_i2 = Eigen::ArrayXd::Map(of.storage.data(), size);
-  Eigen::ArrayXd t(size), root(size), part(size), over_t(size), slope_over_t(size);
-  for (Index k = 0; k < n; ++k) {
-    t = (of_w * tau[static_cast<std::size_t>(k)]).min(1e140);  // whose square is a double
-    root = (1 + t.square()).sqrt();
-    part = 1 / (root * (1 + root));
-    over_t = t * part;
-    slope_over_t = t * ((1 + root) * part).cube();
-    linear[k] = 2 * pi * (of_i1 * over_t).sum();
-    weight[k] = 2 * pi * (of_i2 * t * over_t).sum();
-    result.relaxation_times[k] = 2 * pi *
-                                 (e[static_cast<std::size_t>(k)] * (of_i1 * (slope_over_t - over_t)).sum() +
-                                  weights[k] * (of_i2 * t * slope_over_t).sum());
-  }
-  result.equilibrium_modulus = 4 * pi * e_inf * e_inf * of_i2.sum();
-  for (Index k = 0; k < n; ++k) {
-    const double modulus = e[static_cast<std::size_t>(k)], time = tau[static_cast<std::size_t>(k)];
-    result.moduli[k] += modulus * linear[k] + weight[k] * weights[k];
-    result.equilibrium_modulus += weight[k] * 2 * modulus * e_inf;
-    for (Index l = 0; l < n; ++l) {
-      const double other = e[static_cast<std::size_t>(l)], ratio = time / tau[static_cast<std::size_t>(l)];
-      const double part = weight[k] * 2 * modulus * other / (1 + ratio);
-      result.moduli[l] += part;
-      const double moved = part * ratio / (1 + ratio);  // d / d ln(tau_k / tau_l), its sign apart
-      result.relaxation_times[k] -= moved;
-      result.relaxation_times[l] += moved;
-    }
-  }
-  if (std::ranges::any_of(beside, [](double one) { return one != 0; }))
-    loss_part_gradient(series, of.w, beside, {result.moduli.data(), e.size()},
-                       {result.relaxation_times.data(), e.size()});
-  return result;
 }
 
 }  // namespace asperity

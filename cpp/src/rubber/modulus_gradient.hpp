@@ -61,11 +61,4 @@ class ModulusGradient {
   Eigen::MatrixXd i2_storage_, i2_loss_, i1_loss_;
 };
 
-/// Slopes of a number over ln E_inf, ln E_k and ln tau_k of a series, from those over integrals at frequencies.
-struct SeriesGradient {
-  double equilibrium_modulus = 0;
-  Eigen::VectorXd moduli, relaxation_times;
-};
-SeriesGradient series_gradient(const PronySeries& series, const IntegralSlopes& of);
-
 }  // namespace asperity

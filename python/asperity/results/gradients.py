@@ -62,7 +62,7 @@ class Gradients(Table):
         The same, where they are given, and the last with adhesion.
     error_estimate : float or ndarray
         Absolute error of a slope, and of the integral of a density over any range: twice what a
-        finer grid changes, and 1e-4 of mu or so.
+        finer grid changes, and 2e-4 of mu or so.
     """
 
     wavenumber: Array
