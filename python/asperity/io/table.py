@@ -27,6 +27,7 @@ UNITS = {
     "_per_m": "1/m",
     "_m4": "m^4",
     "temperature_k": "K",
+    "_deg": "deg",
     "_m": "m",
 }
 

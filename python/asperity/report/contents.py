@@ -120,7 +120,9 @@ def _facts(scene: Scene, result: SceneFriction) -> list[Fact]:
     facts = [Fact("largest mu", f"{result.mu[i, k]:.4g}", at)]
     facts.append(Fact("of which hysteresis", f"{result.hysteresis[i, k]:.4g}", ""))
     if scene.knows_directions:
-        facts.append(Fact("force across there, over load", f"{result.lateral[i, k]:.4g}", ""))
+        across = result.lateral[i, k]
+        seen = abs(across) > result.error_estimate[i, k]
+        facts.append(Fact("force across there, over load", f"{across:.4g}" if seen else "0", ""))
     area = float(result.contact_area[i, k])
     facts.append(Fact("contact there, A/A0", f"{100 * area:.3g} %", ""))
     if result.cold is not None and scene.temperature is not None:

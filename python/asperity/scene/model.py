@@ -115,6 +115,11 @@ class Scene:
         return self._in_its_unit([*self.unusual, *of_surface, *self.built_rubber.notes])
 
     @property
+    def _unsaid(self) -> set[str]:
+        """Codes of notes of results that the scene has itself, or answers."""
+        return _OF_ALL if self.direction_deg is None else {*_OF_ALL, "along-x"}
+
+    @property
     def derived(self) -> Mapping[str, Any]:
         return self.surface.derived
 
@@ -187,7 +192,7 @@ class Scene:
             parts = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
         share = np.concatenate([part.extrapolated_share for part in parts])
-        remarks = [note for part in parts for note in part.notes if note.code not in _OF_ALL]
+        remarks = [note for part in parts for note in part.notes if note.code not in self._unsaid]
         remarks = [*self._with_size_of_heat(remarks), *extrapolation_notes(self.points[1], share)]
         held = [note for note in remarks if note.code == _OF_STRAIN]
         most = max(held, key=_share, default=None)  # of all points
@@ -332,7 +337,7 @@ class Scene:
         """Where the theory leaves its range at some of the points."""
         compute = partial(contact_notes, **self.options)
         parts: list[tuple[Note, ...]] = self._at_points(compute, nullcontext)
-        remarks = [note for part in parts for note in part if note.code not in _OF_ALL]
+        remarks = [note for part in parts for note in part if note.code not in self._unsaid]
         return self.notes_with(remarks)
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:

@@ -54,6 +54,11 @@ def test_the_table_ends_with_the_force_across(tmp_path: Path) -> None:
     lines = (tmp_path / "out.csv").read_text().splitlines()
     rows = [line.split(",") for line in lines if not line.startswith("#")]
     assert rows[0][-1] == "lateral"
+    several = TURNED.replace("75", "[0, 75]")
+    path_of_several = written(tmp_path, RIDGES + RUBBER + several)
+    assert main(["friction", str(path_of_several), "--output", str(tmp_path / "all.csv")]) == 0
+    assert "direction_deg [deg]" in (tmp_path / "all.csv").read_text()
+    path = written(tmp_path, RIDGES + RUBBER + TURNED)
     found = load_scene(path, for_friction=True).friction().lateral.ravel()
     np.testing.assert_array_equal([float(row[-1]) for row in rows[1:]], found)
     path = written(tmp_path, SURFACE + RUBBER + CONDITIONS)
@@ -128,3 +133,11 @@ def test_a_band_is_that_of_the_direction(ridged: Path) -> None:
     )
     np.testing.assert_allclose(found.lower * band.mu, band.lower, rtol=1e-12)
     np.testing.assert_allclose(found.upper * band.mu, band.upper, rtol=1e-12)
+
+
+@pytest.mark.parametrize("typed", ["", "direction_deg = 0\n"])
+def test_sliding_along_x_is_noted_where_no_direction_is_typed(tmp_path: Path, typed: str) -> None:
+    path = written(tmp_path, RIDGES + RUBBER + CONDITIONS + typed)
+    scene = load_scene(path, for_friction=True)
+    for notes in (scene.friction().notes, scene.contact_notes()):
+        assert ("along-x" in [note.code for note in notes]) is not bool(typed)
