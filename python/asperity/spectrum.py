@@ -235,9 +235,9 @@ class TabulatedSpectrum(Rows, _Spectrum):
         Of the heights that the spectrum was measured on [-], both or none. Far from 0 and 3 a
         spectrum is too little to know mu by, which a result notes.
     curvature_kurtosis : float, optional
-        Kurtosis of their second differences along x over two pixels [-], with the other two alone:
-        3 where short waves are spread evenly, above where they are gathered in places, which a
-        spectrum does not know either.
+        Kurtosis of their second differences over two pixels [-], the larger one of both axes, with
+        the other two alone: 3 where short waves are spread evenly, above where they are gathered in
+        places, which a spectrum does not know either.
     cosine, sine : array_like, shape (n, m), optional
         Harmonics a_m, b_m of each row [-], both or none, m up to 64:
         C(q, phi) = C(q) (1 + 2 sum_m [a_m cos 2 m phi + b_m sin 2 m phi]), phi the direction of q

@@ -44,8 +44,8 @@ enum RowFlag : std::uint8_t {
 /// What the heights are that a spectrum was measured on, which the spectrum does not tell.
 struct HeightShape {
   double skewness, kurtosis;  // about the trend [-], 0 and 3 for Gaussian heights
-  // Kurtosis of second differences along x over two pixels: 3 where short waves are spread evenly and above where they
-  // are gathered in places.
+  // Kurtosis of second differences over two pixels, the larger one of both axes: 3 where short waves are spread evenly
+  // and above where they are gathered in places.
   std::optional<double> curvature_kurtosis = {};
   bool operator==(const HeightShape&) const = default;
 };

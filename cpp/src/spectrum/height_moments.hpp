@@ -1,6 +1,7 @@
 // Skewness and kurtosis of heights and the kurtosis of their curvature from one reading.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -9,7 +10,8 @@
 
 namespace asperity {
 
-/// Sums of the first four powers of heights about a height near their mean, and of second differences over two points.
+/// Sums of the first four powers of heights about a height near their mean, and of second differences over two points
+/// along either axis: short waves that are gathered along one of them alone are faint along the other.
 class HeightMoments {
  public:
   void add(std::span<const double> heights, double anchor) {
@@ -26,12 +28,12 @@ class HeightMoments {
     third_ += s3;
     fourth_ += s4;
     count_ += static_cast<double>(heights.size());
-    for (std::size_t i = 4; i < heights.size(); ++i) {
-      const double curvature = heights[i - 4] - 2 * heights[i - 2] + heights[i], square = curvature * curvature;
-      curvature_second_ += square;
-      curvature_fourth_ += square * square;
-      curvatures_ += 1;
-    }
+    for (std::size_t i = 4; i < heights.size(); ++i)
+      curvature_[0].add(heights[i - 4] - 2 * heights[i - 2] + heights[i]);
+  }
+  /// The same of rows that are two apart.
+  void add_across(std::span<const double> before, std::span<const double> heights, std::span<const double> after) {
+    for (std::size_t i = 0; i < heights.size(); ++i) curvature_[1].add(before[i] - 2 * heights[i] + after[i]);
   }
 
   [[nodiscard]] double mean(double anchor) const { return anchor + first_ / count_; }
@@ -43,14 +45,26 @@ class HeightMoments {
                  m4 = raw4 - 4 * m * raw3 + 6 * m * m * raw2 - 3 * m * m * m * m;
     if (!(m2 > 1e-20 * raw2) || !std::isfinite(m4 / (m2 * m2))) return {};
     HeightShape shape{m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
-    const double square = curvature_second_ * curvature_second_;
-    if (square > 0 && std::isfinite(square)) shape.curvature_kurtosis = curvature_fourth_ * curvatures_ / square;
+    for (const Curvature& of : curvature_) {
+      const double square = of.second * of.second;
+      if (square > 0 && std::isfinite(square))
+        shape.curvature_kurtosis = std::fmax(shape.curvature_kurtosis.value_or(0), of.fourth * of.count / square);
+    }
     return shape;
   }
 
  private:
   double first_ = 0, second_ = 0, third_ = 0, fourth_ = 0, count_ = 0;
-  double curvature_second_ = 0, curvature_fourth_ = 0, curvatures_ = 0;
+  struct Curvature {
+    double second = 0, fourth = 0, count = 0;
+    void add(double value) {
+      const double square = value * value;
+      second += square;
+      fourth += square * square;
+      count += 1;
+    }
+  };
+  std::array<Curvature, 2> curvature_;  // along x and along y
 };
 
 }  // namespace asperity
