@@ -238,6 +238,9 @@ class TabulatedSpectrum(Rows, _Spectrum):
         Kurtosis of their second differences over two pixels [-], the larger one of both axes, with
         the other two alone: 3 where short waves are spread evenly, above where they are gathered in
         places, which a spectrum does not know either.
+    slope_ratio : float, optional
+        Rms slope across the lay over that along it [-], as of `anisotropy`, with skewness and
+        kurtosis alone. Above 1.5 a result notes that a mean over directions stands for none.
     cosine, sine : array_like, shape (n, m), optional
         Harmonics a_m, b_m of each row [-], both or none, m up to 64:
         C(q, phi) = C(q) (1 + 2 sum_m [a_m cos 2 m phi + b_m sin 2 m phi]), phi the direction of q
@@ -268,6 +271,7 @@ class TabulatedSpectrum(Rows, _Spectrum):
     skewness: float | None = None
     kurtosis: float | None = None
     curvature_kurtosis: float | None = None
+    slope_ratio: float | None = None
     cosine: OptionalVector = ABSENT
     sine: OptionalVector = ABSENT
     harmonic_error: OptionalVector = ABSENT
@@ -285,7 +289,11 @@ class TabulatedSpectrum(Rows, _Spectrum):
             )
 
     def __post_init__(self) -> None:
-        self._set(q1=number_or_none(self.q1, "q1"))
+        for name in ("q1", "slope_ratio"):
+            self._set(**{name: number_or_none(getattr(self, name), name)})
+        if self.slope_ratio is not None and self.kurtosis is None:
+            allowed = Must(": must be "), "given with slope_ratio"
+            raise InvalidInput(Argument("kurtosis"), " = None", *allowed)
         if not isinstance(self.preparation, str | None):
             raise refusal("preparation", self.preparation, "a text, or None")
         super().__post_init__()

@@ -101,8 +101,8 @@ class Rows(Table):
             variables["standard_error"] = Column(row, self.standard_error, self._unit)
         if self.flag is not None:
             variables["flag"] = Column(row, self.flag, "1", "why the row is not to be trusted")
-        names = "skewness", "kurtosis", "curvature_kurtosis"
-        shape = {name: getattr(self, name) for name in names}
+        names = "skewness", "kurtosis", "curvature_kurtosis", "slope_ratio"
+        shape = {name: getattr(self, name, None) for name in names}
         known = {name: number for name, number in shape.items() if number is not None}
         return Columns({"wavenumber": Column(row, self.wavenumber, "1/m")}, variables, known)
 

@@ -27,13 +27,13 @@ using Column = std::optional<Array>;
 using Flags = std::optional<std::vector<std::uint8_t>>;
 
 RowQuality quality_of(const Column& count, const Column& error, const Flags& flag, const Column& correlation,
-                      Optional skewness, Optional kurtosis, Optional curvature_kurtosis) {
+                      Optional skewness, Optional kurtosis, Optional curvature_kurtosis, Optional slope_ratio = {}) {
   RowQuality quality;
   if (count) quality.count = vector_of(*count);
   if (error) quality.standard_error = vector_of(*error);
   if (flag) quality.flag = *flag;
   if (correlation) quality.correlation = vector_of(*correlation);
-  if (skewness && kurtosis) quality.heights = HeightShape{*skewness, *kurtosis, curvature_kurtosis};
+  if (skewness && kurtosis) quality.heights = HeightShape{*skewness, *kurtosis, curvature_kurtosis, slope_ratio};
   return quality;
 }
 
@@ -181,13 +181,18 @@ void bind_spectrum(py::module_& m) {
   bind_rows<TabulatedSpectrum>(m, "TabulatedSpectrum")
       .def(py::init([](const Array& q, const Array& density, const Column& count, const Column& error,
                        const Flags& flag, const Column& correlation, Optional skewness, Optional kurtosis,
-                       Optional curvature_kurtosis, const Column& cosine, const Column& sine,
+                       Optional curvature_kurtosis, Optional slope_ratio, const Column& cosine, const Column& sine,
                        const Column& harmonic_error, Optional q1) {
-        return TabulatedSpectrum(vector_of(q), vector_of(density),
-                                 quality_of(count, error, flag, correlation, skewness, kurtosis, curvature_kurtosis),
-                                 harmonics_of(span_of(q).size(), cosine, sine, harmonic_error), q1);
+        return TabulatedSpectrum(
+            vector_of(q), vector_of(density),
+            quality_of(count, error, flag, correlation, skewness, kurtosis, curvature_kurtosis, slope_ratio),
+            harmonics_of(span_of(q).size(), cosine, sine, harmonic_error), q1);
       }))
       .def_property_readonly("q1", &TabulatedSpectrum::q1)
+      .def_property_readonly("slope_ratio",
+                             [](const TabulatedSpectrum& s) {
+                               return s.quality().heights ? s.quality().heights->slope_ratio : std::nullopt;
+                             })
       .def_property_readonly("cosine",
                              [](const TabulatedSpectrum& s) { return harmonic_rows(s, &RingHarmonics::cosine); })
       .def_property_readonly("sine", [](const TabulatedSpectrum& s) { return harmonic_rows(s, &RingHarmonics::sine); })

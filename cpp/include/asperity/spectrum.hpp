@@ -47,6 +47,7 @@ struct HeightShape {
   // Kurtosis of second differences over two pixels, the larger one of both axes: 3 where short waves are spread evenly
   // and above where they are gathered in places.
   std::optional<double> curvature_kurtosis = {};
+  std::optional<double> slope_ratio = {};  // rms slope across the lay over that along it, of reliable waves
   bool operator==(const HeightShape&) const = default;
 };
 

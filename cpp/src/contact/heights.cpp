@@ -62,4 +62,16 @@ std::optional<Diagnostic> note_on_heights(const Spectrum& spectrum) {
   return table && table->quality().heights ? note_on_heights(*table->quality().heights) : std::nullopt;
 }
 
+std::optional<Diagnostic> note_on_lay(const Spectrum& spectrum) {
+  constexpr double least = 1.5;  // |C| differs by its square
+  const auto* table = std::get_if<TabulatedSpectrum>(&spectrum);
+  if (!table || table->harmonics().count > 0 || !table->quality().heights) return {};
+  const std::optional<double> ratio = table->quality().heights->slope_ratio;
+  if (!ratio || !(*ratio > least)) return {};
+  return warning("lay",
+                 "the slope across the lay is " + value(*ratio, 3) +
+                     " times that along it: the spectrum is an average over directions, and stands for none",
+                 {"take power_spectrum(map, directional=True), and the direction of sliding"});
+}
+
 }  // namespace asperity

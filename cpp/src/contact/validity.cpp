@@ -95,6 +95,7 @@ Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& c
       slope_of_few_periods_(mostly_below(spectrum, flagged_ends_[0])),
       fitted_(fitted_velocities(spectrum, rubber)),
       heights_(std::holds_alternative<ScanContact>(correction) ? std::nullopt : note_on_heights(spectrum)),
+      lay_(std::holds_alternative<ScanContact>(correction) ? std::nullopt : note_on_lay(spectrum)),
       by_sliding_(std::holds_alternative<PartialContact>(correction)),
       ridges_(is_directional(spectrum)),
       plain_(std::holds_alternative<NoCorrection>(correction)),
@@ -202,6 +203,7 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
           note(code, {"exact sliding contacts of Gaussian surfaces in this regime, " + std::string(regime) + ": mu +-" +
                       (ridges_ ? over_ridges : error) + ", the more the lighter the load"}));
   if (heights_) result.push_back(*heights_);
+  if (lay_) result.push_back(*lay_);
   if (unmeasured_ && !heights_)
     result.push_back(note(
         "unknown-model-error",

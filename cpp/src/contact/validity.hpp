@@ -55,14 +55,14 @@ class Notes {
  private:
   double rms_slope_;
   bool corrected_;
-  std::optional<double> unmeasured_nayak_;  // of a spectrum beyond the measured ones, where a correction is asked for
-  std::array<double, 2> flagged_ends_;      // [1/m]: unreliable up to the first and from the second on
-  bool slope_of_few_periods_;               // most of the slope is of waves up to the first
-  std::optional<FrequencyRange> fitted_;    // [m/s]: v q stays where a Prony series was fitted
-  std::optional<Diagnostic> heights_;       // of a correction that knows the spectrum alone
-  bool by_sliding_ = false;                 // PartialContact, which was measured on sliding contacts
-  bool ridges_ = false;                     // a spectrum that knows directions
-  bool plain_ = false;                      // no correction
+  std::optional<double> unmeasured_nayak_;   // of a spectrum beyond the measured ones, where a correction is asked for
+  std::array<double, 2> flagged_ends_;       // [1/m]: unreliable up to the first and from the second on
+  bool slope_of_few_periods_;                // most of the slope is of waves up to the first
+  std::optional<FrequencyRange> fitted_;     // [m/s]: v q stays where a Prony series was fitted
+  std::optional<Diagnostic> heights_, lay_;  // of a correction that knows the spectrum alone
+  bool by_sliding_ = false;                  // PartialContact, which was measured on sliding contacts
+  bool ridges_ = false;                      // a spectrum that knows directions
+  bool plain_ = false;                       // no correction
   bool slow_ = false, constant_ = false, fast_regime_ = false, unmeasured_ = false;
   bool beyond_fit_ = false;
   double strained_ = 0;

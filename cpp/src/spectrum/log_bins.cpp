@@ -182,19 +182,20 @@ bool same_wavenumbers(std::span<const TabulatedSpectrum> spectra) {
 
 /// Means of the scans; none where one does not know its own.
 std::optional<HeightShape> mean_heights(std::span<const TabulatedSpectrum> spectra) {
-  HeightShape sum{0, 0, 0.0};
-  for (const TabulatedSpectrum& s : spectra) {
-    if (!s.quality().heights) return {};
-    sum.skewness += s.quality().heights->skewness;
-    sum.kurtosis += s.quality().heights->kurtosis;
-    if (s.quality().heights->curvature_kurtosis && sum.curvature_kurtosis)
-      *sum.curvature_kurtosis += *s.quality().heights->curvature_kurtosis;
-    else
-      sum.curvature_kurtosis.reset();
-  }
   const auto count = static_cast<double>(spectra.size());
-  if (sum.curvature_kurtosis) *sum.curvature_kurtosis /= count;
-  return HeightShape{sum.skewness / count, sum.kurtosis / count, sum.curvature_kurtosis};
+  HeightShape mean{0, 0, 0.0, 0.0};
+  const auto add = [&](std::optional<double>& to, const std::optional<double>& one) {
+    to = to && one ? std::optional(*to + *one / count) : std::nullopt;
+  };
+  for (const TabulatedSpectrum& s : spectra) {
+    const std::optional<HeightShape>& heights = s.quality().heights;
+    if (!heights) return {};
+    mean.skewness += heights->skewness / count;
+    mean.kurtosis += heights->kurtosis / count;
+    add(mean.curvature_kurtosis, heights->curvature_kurtosis);
+    add(mean.slope_ratio, heights->slope_ratio);
+  }
+  return mean;
 }
 
 }  // namespace

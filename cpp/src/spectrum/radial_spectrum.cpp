@@ -121,6 +121,43 @@ class Rings {
     }
   }
 
+  /// Sums of |h|^2 k_i k_j.
+  struct Slopes {
+    double xx = 0, xy = 0, yy = 0, modes = 0;
+    void add(const Slopes& other) {
+      modes += other.modes;
+      xx += other.xx;
+      xy += other.xy;
+      yy += other.yy;
+    }
+    /// Of the principal slopes; none where one is 0, or of few modes.
+    [[nodiscard]] std::optional<double> ratio() const {
+      constexpr double enough = 16;
+      if (modes < enough) return {};
+      const double mean = (xx + yy) / 2, split = std::hypot((xx - yy) / 2, xy);
+      return mean - split > 1e-12 * mean ? std::optional(std::sqrt((mean + split) / (mean - split))) : std::nullopt;
+    }
+  };
+  /// Of the modes of column k_x from one wavenumber to another [1/m].
+  template <class T>
+  void add_slopes(std::size_t kx, const std::complex<T>* column, double lowest, double highest, Slopes& sums) const {
+    const std::size_t ny = shape_[0];
+    const double x = radius(kx, side_x_), x2 = x * x, low = lowest / dq(), high = highest / dq();
+    Slopes of;
+    for (std::size_t ky = 0; 2 * ky < ny; ++ky) {
+      const double y2 = squared_radius_[ky], q2 = x2 + y2;
+      if (q2 > high * high) break;
+      if (q2 < low * low) continue;
+      const double above = norm(column[ky]), below = ky == 0 ? 0 : norm(column[ny - ky]);
+      of.xx += (above + below) * x2;
+      of.xy += (above - below) * x * std::sqrt(y2);
+      of.yy += (above + below) * y2;
+      of.modes += ky == 0 ? 1 : 2;
+    }
+    const double mirrored = kx == 0 || 2 * kx == shape_[1] ? 1 : 2;
+    sums.add({mirrored * of.xx, mirrored * of.xy, mirrored * of.yy, of.modes});
+  }
+
   /// Adds the modes of column k_x, all ny of them, k_y and -k_y together: they lie in one ring.
   template <class T>
   void add_column(std::size_t kx, const std::complex<T>* column, Sums& sums) const {
@@ -173,13 +210,17 @@ class Rings {
 
 /// With room for `most` harmonics of each ring, or none, in `directions`.
 std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Preparation& prepared, unsigned threads,
-                            std::size_t most, std::vector<Rings::Directions>& directions) {
+                            std::size_t most, std::vector<Rings::Directions>& directions, const Reliability& reliable,
+                            Rings::Slopes& slopes) {
   std::vector<Rings::Sums> sums(threads, Rings::Sums(rings));
   std::vector<std::vector<Rings::Directions>> of_parts(threads, std::vector<Rings::Directions>(rings.size() * most));
+  std::vector<Rings::Slopes> of_slopes(threads);
   for_each_mode_column(map, prepared, threads, [&](unsigned part, std::size_t kx, const auto* column) {
     rings.add_column(kx, column, sums[part]);
+    rings.add_slopes(kx, column, reliable.lowest, reliable.highest, of_slopes[part]);
     if (most > 0) rings.add_directions(kx, column, most, of_parts[part]);
   });
+  for (const Rings::Slopes& one : of_slopes) slopes.add(one);
   directions.assign(rings.size() * most, {});
   for (const auto& part : of_parts)
     for (std::size_t i = 0; i < part.size(); ++i) {
@@ -287,14 +328,16 @@ TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::option
   const auto [dy, dx] = map.pixel_size();
   const Rings rings(map.shape(), map.pixel_size());
   std::vector<Rings::Directions> directions;
-  const std::vector<Ring> sums = ring_sums(map, rings, prepared, threads, most, directions);
-  RingHarmonics harmonics{most, {}, {}, {}};
   const double shorter = std::min(static_cast<double>(ny) * dy, static_cast<double>(nx) * dx);
   const std::vector<double>& covariances = prepared.ring_covariances;
   const Reliability reliable(window, shorter, std::max(dy, dx), covariances[0]);
+  Rings::Slopes slopes;
+  const std::vector<Ring> sums = ring_sums(map, rings, prepared, threads, most, directions, reliable, slopes);
+  RingHarmonics harmonics{most, {}, {}, {}};
   std::vector<double> wavenumber, density;
   RowQuality quality;
   quality.heights = height_shape(map, prepared.trend);
+  if (quality.heights) quality.heights->slope_ratio = slopes.ratio();
   for (std::size_t ring = 1; ring < rings.size(); ++ring) {  // ring 0 is the mean height
     const Ring& sum = sums[ring];
     const double modes = 2 * sum.modes[1];  // k_y and -k_y were counted as one

@@ -49,12 +49,14 @@ void validate_rows(const std::vector<double>& wavenumber, const std::vector<doub
     if (!(std::abs(quality.correlation[i]) <= 1))
       refuse(argument("correlation") + ": entry " + std::to_string(i), quality.correlation[i], "in [-1, 1]");
   if (quality.heights) {
-    const auto [skewness, kurtosis, curvature_kurtosis] = *quality.heights;
+    const auto [skewness, kurtosis, curvature_kurtosis, slope_ratio] = *quality.heights;
     require_finite("skewness", skewness);
     if (!(kurtosis >= (1 + skewness * skewness) * (1 - 1e-9)) || !std::isfinite(kurtosis))
       refuse("kurtosis", kurtosis, "1 + skewness^2 or more, and finite");
     if (curvature_kurtosis && !(*curvature_kurtosis >= 1 - 1e-9 && std::isfinite(*curvature_kurtosis)))
       refuse("curvature_kurtosis", *curvature_kurtosis, "1 or more, and finite");
+    if (slope_ratio && !(*slope_ratio >= 1 && std::isfinite(*slope_ratio)))
+      refuse("slope_ratio", *slope_ratio, "1 or more, and finite");
   }
 }
 

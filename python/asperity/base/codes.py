@@ -146,7 +146,6 @@ _NEXT_STEPS = {
     "slope-not-reached": "measure with finer pixels, or go on beyond the scan by fit",
     "noise-in-spectrum": "end the spectrum where the noise begins",
     "worn-line-scan": "measure a map, whose contact ScanContact takes",
-    "lay": "measure friction along and across the lay",
     "law-beyond-rows": "measure with finer pixels, or state it with mu",
     "law-beyond-fit": "measure the modulus at these temperatures",
     "lines-in-spectrum": "measure friction along and across the lines",

@@ -44,7 +44,7 @@ _SAMPLING = names_of("uncertainty", UNCERTAINTY)
 _CHUNK = 64  # points between two steps of a progress bar, or two looks at Ctrl-C
 
 # notes on all points together, and on numbers that a scene checks by its keys
-_OF_ALL = {"modulus-extrapolated", "modulus-unmeasured", "small-friction"}
+_OF_ALL = {"modulus-extrapolated", "modulus-unmeasured", "small-friction", "lay"}
 _OF_ALL |= {code for code in NOTES if code.startswith(("absurd-", "unusual-", "squashed-"))}
 _OF_STRAIN = "strain-beyond-sweeps"
 # what a spectrum does not know of a surface

@@ -177,5 +177,6 @@ def _merged(
         skewness=coarse.skewness,
         kurtosis=coarse.kurtosis,
         curvature_kurtosis=coarse.curvature_kurtosis,
+        slope_ratio=coarse.slope_ratio,
         q1=math.pi / max(pixel_size),
     )

@@ -1,8 +1,11 @@
 """Anisotropy: ratio and direction against their definition and against surfaces of a known lay."""
 
+import pickle
+
 import numpy as np
 import pytest
 
+import asperity
 from asperity import (
     HeightMap,
     InvalidInput,
@@ -126,3 +129,25 @@ def test_a_band_without_modes_is_refused():
     surface = synthesize(BAND, shape=(N, N), pixel_size=PIXEL, seed=0)
     with pytest.raises(InvalidInput, match=r"modes of the map in .* 16 or more"):
         anisotropy(surface, q_min=10.2 * DQ, q_max=10.3 * DQ)
+
+
+def test_a_mean_over_directions_tells_of_its_lay() -> None:
+    law = asperity.SelfAffineSpectrum(
+        rms_height=1e-6, hurst=0.8, q0=2e4, q1=4e5, axis_ratio=2.5, lay=0.5
+    )
+    scan = asperity.synthesize(law, shape=(192, 256), pixel_size=(2e-6, 1.5e-6), seed=1)
+    table = asperity.power_spectrum(scan)
+    assert table.slope_ratio == pytest.approx(asperity.anisotropy(scan).ratio, rel=1e-9)
+    rubber = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e7], relaxation_times=[1e-3])
+    at = {"pressure": 1e5, "velocity": 1e-2}
+    for one in (table, table.log_binned(), pickle.loads(pickle.dumps(table.truncated(q0=5e4)))):
+        [note] = (n for n in asperity.friction(one, rubber, **at).notes if n.code == "lay")
+        assert note.value == pytest.approx(table.slope_ratio, rel=1e-2)
+        assert note.next_step
+    kept = asperity.power_spectrum(scan, directional=True)
+    assert "lay" not in [note.code for note in asperity.friction(kept, rubber, **at).notes]
+    assert asperity.merge_spectra([table, table]).slope_ratio == table.slope_ratio
+    with pytest.raises(asperity.InvalidInput, match="slope_ratio"):
+        asperity.TabulatedSpectrum(
+            wavenumber=[1, 2], density=[1, 1], skewness=0, kurtosis=3, slope_ratio=0.5
+        )
