@@ -18,28 +18,32 @@ def design_figure(design: Design, path: Path) -> bytes:
     at = np.unravel_index(int(np.argmax(result.mu)), np.shape(result.mu))
     point = float(result.pressure[at]), float(result.velocity[at])
     here = [one for one in design.worths if (one.pressure, one.velocity) == point]
+    percent = 100 / result.mu[at] if result.mu[at] > 0 else 0.0
     figure, (first, second) = new_figure(2)
+    second.sharey(first)
     for place, (part, label, colour) in enumerate(
         (("storage", "$E$′", palette()[0]), ("loss", "$E$″", palette()[3]))
     ):
         rows = [one for one in here if one.part == part]
-        left = np.log10([_known(one.lower) for one in rows]) + 0.1 + place * _BARS / 2
-        first.bar(
-            left, [one.mu for one in rows], _BARS / 2, align="edge", color=colour, label=label
-        )
+        height = [percent * one.mu for one in rows]
+        bars = np.log10([_known(one.lower) for one in rows]) + 0.1 + place * _BARS / 2
+        first.bar(bars, height, _BARS / 2, align="edge", color=colour, label=label)
+    decades = np.log10([_known(one.lower) for one in here if one.part in ("storage", "loss")])
+    first.set_xticks(np.arange(decades.min(), decades.max() + 2))
     first.set_xlabel(r"decade of $\omega a_T$, $\log_{10}$ (rad/s)")
     _name_temperatures(first, [one for one in here if one.part == "loss"])
     first.legend(frameon=False, loc="lower left")
     waves = [one for one in here if one.part == "spectrum"]
     ends = np.log10([1e6 * _known(one.lower) for one in waves])
-    second.bar(ends + 0.1, [one.mu for one in waves], _BARS, align="edge", color=palette()[1])
+    height = [percent * one.mu for one in waves]
+    second.bar(ends + 0.1, height, _BARS, align="edge", color=palette()[1])
     second.set_xticks(np.arange(ends.min(), ends.max() + 2))
     second.set_xlabel(r"decade of wavelength, $\log_{10}$ (µm)")
     title = f"$\\mu$ = {result.mu[at]:.3g} at {point[0] / 1e3:.4g} kPa, {point[1]:.3g} m/s"
     second.set_title(title, fontsize="medium")
     for axes in (first, second):
         axes.axhline(0, color=grey(0.4), linewidth=0.8)
-        axes.set_ylabel(r"$\Delta\mu$ of 10 % more")
+        axes.set_ylabel(r"$\Delta\mu / \mu$ of 10 % more [%]")
     return picture(figure, path)
 
 

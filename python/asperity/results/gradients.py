@@ -129,17 +129,20 @@ class Gradients(Table):
         return Columns(coordinates, variables)
 
     def _draw(self, axes: Any) -> None:
-        """Draw what 10 % of each decade of the modulus is worth, a line a point."""
+        """Draw slopes of mu over each decade of the modulus, a line a point, the first faint."""
         x = self.angular_frequency
         parts = {"E'": (self.storage, "C0"), "E''": (self.loss, "C3")}
         for label, (density, color) in parts.items():
             rows = density.reshape(-1, x.size)
+            faint = np.linspace(1, 0.3, len(rows))[::-1]
             for i, row in enumerate(rows):
-                axes.plot(x, row * DECADE, color=color, label=label if i == 0 else None)
+                last = i + 1 == len(rows)
+                axes.plot(x, row * DECADE, color=color, alpha=faint[i], label=label * last or None)
         axes.axhline(0, color="0.7", lw=0.8, zorder=0)
         axes.set(xscale="log", xlabel=r"$\omega a_T$ [rad/s]")
         axes.set_ylabel(r"d$\mu$ / d ln $E$ of a decade")
-        axes.legend(frameon=False)
+        points = np.size(self.pressure)
+        axes.legend(frameon=False, title="faint: first point" if points > 1 else None)
 
 
 def reshaped(gradients: Gradients, shape: Shape) -> Gradients:
