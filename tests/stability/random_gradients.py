@@ -178,9 +178,10 @@ def compute(seed: int, scene: int) -> Outcome:
         best = (4 * two - four) / 3
         # four to three is what the error of mu does to it; kinks leave part of what steps tell
         left = abs(best - two) / 2 + 3 * sum(one.error_estimate for one in near) / (2 * step)
-        # a kink has a slope on each side: unlike a curvature it bends as much on half of a step
+        # a kink has a slope on each side: unlike a curvature it bends as much on half of a step;
+        # twice that, as it may lie beside the middle
         bend, wider = (abs(a.mu + b.mu - 2 * middle().mu) for a, b in (near, far))
-        left += abs(bend - wider / 4) / step
+        left += 2 * abs(bend - wider / 4) / step
         if left <= TELLING * whole:
             stated = of.error_estimate * (10 if name == "temperature" else 1)
             outcome.errors[name] = tuple(

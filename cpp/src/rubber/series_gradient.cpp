@@ -38,7 +38,7 @@ std::array<double, points> lagrange(double x) {
 }  // namespace
 
 SeriesSlopes::SeriesSlopes(const PronySeries& series, double lowest, double highest)
-    : series_(series), first_(std::log(lowest) - points * step) {
+    : series_(series), first_((std::floor(std::log(lowest) / step) - points) * step) {
   const auto n = static_cast<Index>(series.moduli().size());
   const auto count = static_cast<Index>(std::ceil(std::log(highest / lowest) / step)) + 2 * points;
   for (auto* const matrix : {&share_over_t_, &share_, &slope_over_t_, &slope_}) matrix->resize(n, count);

@@ -23,7 +23,7 @@ class SeriesSlopes {
 
  private:
   const PronySeries& series_;
-  double first_;  // ln w
+  double first_;  // ln w, a whole number of steps: what a point has does not depend on the others of a call
   // of each term at each step: s / t, s, ds / d ln t over t, ds / d ln t
   Eigen::MatrixXd share_over_t_, share_, slope_over_t_, slope_;
 };
