@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 DIRECTION = "Direction of sliding, from $x$ towards $y$ [°]"
 _ACROSS = "across, of either sign"
+_FEW = 37  # directions, which are marked: each may be a contact that took its time
 _TICKS = 45  # degrees between the angles that are named
 
 
@@ -26,8 +27,8 @@ def draw_directions(
     for curve, colour in zip(curves, colours, strict=True):
         angle = np.radians(curve.x) if polar else curve.x
         label = curve.label if labelled else None
-        marker = "o" if curve.x.size == 1 else None
-        axes.plot(angle, curve.mu, color=colour, linewidth=1.8, marker=marker, label=label)
+        look = {"color": colour, "marker": "o", "markersize": 4} if curve.x.size <= _FEW else {}
+        axes.plot(angle, curve.mu, label=label, **{"color": colour, "linewidth": 1.8, **look})
         across = np.abs(curve.lateral) if polar else curve.lateral
         axes.plot(angle, across, "--", color=colour, linewidth=1.2)
         if np.isfinite(curve.low).any():
@@ -40,11 +41,26 @@ def draw_directions(
         axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=band)
     if polar:
         look_polar(axes)
+        _place_ticks(axes, curves)
         return
     axes.axhline(0, color=grey(0.6), linewidth=0.8, zorder=0.5)
     axes.xaxis.set_major_locator(MultipleLocator(_TICKS))
     axes.set_xlabel(DIRECTION)
     axes.set_ylabel("Force over load [-]")
+
+
+def _place_ticks(axes: Any, curves: Sequence[Any]) -> None:
+    """Have the names of radii, which lie beyond them, where they are furthest from curves."""
+    lines = [(curve.x, y) for curve in curves for y in (curve.mu, np.abs(curve.lateral))]
+    beside = 0.04 * axes.get_rmax()
+
+    def nearest(angle: float) -> float:
+        at = [np.interp(angle, x, y, period=360) for x, y in lines]
+        gaps = np.subtract.outer(axes.get_yticks()[1:] + beside, at)
+        return float(np.min(np.abs(gaps), initial=np.inf))
+
+    free = [_TICKS * k + between for k in range(8) for between in (15.0, 22.5, 30.0)]
+    axes.set_rlabel_position(max(free, key=nearest))
 
 
 def look_polar(axes: Any) -> None:

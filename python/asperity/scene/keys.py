@@ -27,7 +27,8 @@ CONDITIONS = {
         "directions and with `scan-contact`: a number, a list or "
         "`{from = 0, to = 360, points = 73}`, in equal steps. A column `lateral` at the end of the "
         "table has the force across over the load, one before it `direction_deg` where there are "
-        "several; the picture of several is polar",
+        "several; the picture of several is polar. With `scan-contact` each is a contact to solve: "
+        "13 or 25 serve",
     ),
 }
 SOLVER = fields_of(friction, "rtol", "form", "method")

@@ -3,6 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext
+from itertools import groupby
 from pathlib import Path
 from typing import Any
 
@@ -29,8 +30,24 @@ def friction_table(
 ) -> tuple[Table, list[SceneFriction]]:
     """mu of every scene. A band, where standard errors are known, is computed where `bands` are
     asked for and where a scene asks for it; it has columns where all scenes ask."""
-    curves = [_curves(scene, band=bands or scene.asks_for_band, bar=bar) for scene in scenes]
+    curves = [
+        curve
+        for _, group in groupby(scenes, key=lambda scene: scene.path)
+        for curve in _curves_of(list(group), bands=bands, bar=bar)
+    ]
     return table_of(scenes, curves), curves
+
+
+def _curves_of(scenes: Sequence[Scene], *, bands: bool, bar: Bar) -> list[SceneFriction]:
+    """Results of one file; of several places a step of the bar each."""
+    if len(scenes) == 1:
+        return [_curves(scenes[0], band=bands or scenes[0].asks_for_band, bar=bar)]
+    with bar(f"{scenes[0].path}")([slice(i, i + 1) for i in range(len(scenes))]) as shown:
+        return [
+            _curves(scene, band=bands or scene.asks_for_band, bar=no_bar)
+            for at in shown
+            for scene in scenes[at]
+        ]
 
 
 def table_of(scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Table:

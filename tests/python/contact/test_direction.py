@@ -414,6 +414,10 @@ def test_the_picture_over_directions_is_polar():
     np.testing.assert_allclose(mu.get_xdata(), angles)
     np.testing.assert_array_equal(mu.get_ydata(), found.mu[0])
     np.testing.assert_array_equal(across.get_ydata(), np.abs(found.lateral[0]))
+    ticks, angle = axes.get_yticks()[1:], np.radians(axes.get_rlabel_position())
+    drawn = [np.interp(angle, *line.get_data(), period=2 * np.pi) for line in axes.lines[:4]]
+    apart = np.abs(np.subtract.outer(ticks, drawn)).min()
+    assert apart > 0.03 * axes.get_rmax()  # the names of radii are on no curve
     plain = pyplot.figure().add_subplot()
     found.plot(plain)
     np.testing.assert_allclose(plain.lines[0].get_xdata(), np.degrees(angles))

@@ -1,6 +1,8 @@
 """Scenes that know directions: what they build, their column, and what they refuse."""
 
+from contextlib import nullcontext
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ import pytest
 import asperity
 from asperity import InvalidInput
 from asperity.cli.main import main
+from asperity.scene.results import friction_table
 from asperity.scene.scene import load_scene
 from helpers.scenes import CONDITIONS, RUBBER, SCAN, SURFACE
 
@@ -120,6 +123,17 @@ def test_a_list_of_directions_is_a_table_and_a_polar_picture(tmp_path: Path) -> 
         )
     with pytest.raises(InvalidInput, match="direction_deg"):
         load_scene(path)
+    steps: dict[str, int] = {}
+
+    def bar(title: str) -> Any:
+        def shown(chunks: list[slice]) -> Any:
+            steps[title] = len(chunks)
+            return nullcontext(chunks)
+
+        return shown
+
+    friction_table(scenes, bands=False, bar=bar)
+    assert steps == {str(path): 4}  # a direction may take less than a bar waits
 
 
 def test_a_band_is_that_of_the_direction(ridged: Path) -> None:
