@@ -27,7 +27,6 @@ extensions = [
     "sphinx-mathjax-offline",
     "sphinx_gallery.gen_gallery",
     "command_line",
-    "scene_keys",
     "codes",
 ]
 exclude_patterns = ["_build", "examples/README.rst", "examples/*.py", "benchmarks/*.md"]

@@ -1,8 +1,13 @@
-"""Tables of the keys of scenes, by the declarations and docstrings of what they set."""
+"""Tables of the keys of scenes, by the declarations and docstrings of what they set.
+
+`python docs/_extensions/scene_tables.py` writes them into the page on scenes anew; a test holds the
+page to them.
+"""
 
 import inspect
 import re
 from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
 import asperity
@@ -34,8 +39,14 @@ _OF: dict[str, tuple[Mapping[str, Field], tuple[Callable[..., Any], ...]]] = {
     "solver": (SOLVER, (asperity.friction,)),
     "uncertainty": (UNCERTAINTY, (asperity.friction_band,)),
 }
-TABLES = ("correction", *_OF)
+PAGE = Path(__file__).parents[1] / "reference/scene.md"
 _SEVERAL = ("ends", "rubber")  # tables of several sources, of which each has keys that it needs
+
+
+def page(text: str) -> str:
+    """The page on scenes with its tables as the declarations have them."""
+    mark = re.compile(r"^(<!-- keys: (\w+) -->\n)(?:\|.*\n)*", re.M)
+    return mark.sub(lambda found: found[1] + "".join(f"{row}\n" for row in table(found[2])), text)
 
 
 def table(name: str) -> list[str]:
@@ -96,3 +107,7 @@ def _meanings(of: Callable[..., Any]) -> dict[str, str]:
         for name in re.findall(r"\w+", names.split(" : ")[0]):
             found[name] = " ".join(body.split())
     return found
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(PAGE.read_text(encoding="utf-8")), encoding="utf-8")

@@ -75,7 +75,7 @@ def read_surface(
         Index of the map or line scan in a file that holds several.
     pixel_size : float or (float, float), optional
         Distance of neighbouring points [m], one number or (dy, dx); one number for a line scan.
-        Only where the file states none.
+        Only where the file states none, or one above 0.1 m, which no scan has.
     unit : {"m", "mm", "um", "nm", "pm"}, optional
         Unit of the heights (and of the lengths of an instrument file that names no unit); "µm" is
         "um". Only where the file states none.
