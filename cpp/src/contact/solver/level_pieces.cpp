@@ -71,8 +71,7 @@ double LevelSolver::beside_knots(const Level& level, const ContactSums& sums) {
   const auto& difference = level.grid->pieces()->nodes().difference;
   const std::size_t n = level.grid->size();
   const double factor = of_difference * stiffening_ * stiffening_ / 8, by_kappa = 1 / sums.slope;
-  of_i1_.resize(n);
-  of_i2_.resize(n);
+  for (auto* const row : {&of_i1_, &of_i2_, &at_nodes_}) row->resize(n);
   const auto differences = [&](const std::vector<double>& of, std::vector<double>& result) {
     const double *const a = difference[0].data(), *const b = difference[1].data(), *const c = difference[2].data(),
                         *const d = difference[3].data(), *const e = difference[4].data(), *const f = of.data();
@@ -90,15 +89,17 @@ double LevelSolver::beside_knots(const Level& level, const ContactSums& sums) {
   const double g1 = level.theory->unit_g(), per_area = 1 / (2 * g1);
   const double *const stress = level.theory->stress().data(), *const g = level.theory->node_g().data(),
                       *const weight = level.grid->weight().data(), *const ratio = level.theory->ratio().data();
+  // what an error of G at a node does to the variance and to friction there
+  double *const by_i1 = of_i1_.data(), *const by_i2 = of_i2_.data(), *const by_g = at_nodes_.data();
+  for (std::size_t i = 2; i + 2 < n; ++i)
+    by_g[i] = passed_on * weight[i] * level.i2[i] * stress[i] / std::max(g[i], 1e-300);
   double variance_behind = 1 / g1, friction_behind = 0, of_mu = 0, of_area = 0;
   for (std::size_t i = n - 2; i-- > 2;) {
-    const double of_i1 = of_i1_[i], of_i2 = of_i2_[i], r = stress[i];
-    const double by_g = passed_on * weight[i] * level.i2[i] * r / (g[i] > 1e-300 ? g[i] : 1e-300);
-    variance_behind += by_g * variance_share;
-    friction_behind += by_g * ratio[i] * friction_share;
-    const double on_variance = of_i2 * (r * variance_share + variance_behind);
-    const double on_mu = of_i1 * r * friction_share + of_i2 * friction_behind + kappa_on_mu * on_variance;
-    const double on_area = kappa_on_area * on_variance + of_i2 * per_area;
+    variance_behind += by_g[i] * variance_share;
+    friction_behind += by_g[i] * ratio[i] * friction_share;
+    const double on_variance = by_i2[i] * (stress[i] * variance_share + variance_behind);
+    const double on_mu = by_i1[i] * stress[i] * friction_share + by_i2[i] * friction_behind + kappa_on_mu * on_variance;
+    const double on_area = kappa_on_area * on_variance + by_i2[i] * per_area;
     of_mu += on_mu * on_mu;
     of_area += on_area * on_area;
   }

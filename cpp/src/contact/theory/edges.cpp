@@ -133,7 +133,7 @@ EdgeIntegrals Edges::operator()(double velocity, double q_e, double lower, doubl
   if (!(to > from)) return held;
   if (limited_ && known_to > from) held.i1_outside += outside(place, std::exp(from), std::exp(known_to));
   std::vector<Piece> pieces;
-  pieces.reserve(32);
+  pieces.reserve(8);
   const auto add_pieces_to = [&](double end) {
     const double count = std::ceil((end - from) / longest), begin = from;
     for (double k = 1; k <= count; ++k) {
