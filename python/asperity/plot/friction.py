@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from asperity.base.arguments import known
 from asperity.draw.directions import DIRECTION
 from asperity.draw.figure import PRESSURE, legend, new_figure, picture, pressure_text
 from asperity.draw.friction import (
@@ -89,7 +90,10 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     fastest = float(np.max(scene.velocity))
     slowest = max(float(np.min(scene.velocity)), 1e-4 * fastest)  # slower ones are cold
     velocity = np.geomspace(slowest, fastest, _PROFILES)
-    q, rise = scene.rise_over_roughness(velocity)
+    result = scene.roughly(
+        pressure=scene.pressure[0], velocity=velocity, heating=scene.heating, contributions=True
+    )
+    q, rise = known(result.wavenumber), known(result.temperature_profile) - known(scene.temperature)
     tints = shades()(np.linspace(0, 1, _PROFILES))
     for v, line, colour in zip(velocity[::-1], rise[::-1], tints[::-1], strict=True):
         axes.plot(q, line, color=colour, label=f"{v:.2g} m/s")

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import partial
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -193,15 +194,22 @@ class Scene:
         shape = (self.pressure.size, self.velocity.size)
         share = np.concatenate([part.extrapolated_share for part in parts])
         remarks = [note for part in parts for note in part.notes if note.code not in self._unsaid]
-        remarks = [*self._with_size_of_heat(remarks), *extrapolation_notes(self.points[1], share)]
+        p, v = self.points
+        if self._law:
+            remarks[:] = with_size_of_heat(
+                remarks,
+                v,
+                self.adhesion is not None,
+                lambda k, heating: self.roughly(pressure=p[k], velocity=v[k], heating=heating),
+            )
+        remarks += extrapolation_notes(v, share)
         held = [note for note in remarks if note.code == _OF_STRAIN]
-        most = max(held, key=_share, default=None)  # of all points
+        most = max(held, key=attrgetter("value"), default=None)  # of all points
         remarks = [note for note in remarks if note.code != _OF_STRAIN or note is most]
         remarks += small_friction_notes(np.concatenate([np.ravel(part.mu) for part in parts]))
-        notes = self.notes_with(remarks)
         slopes = reshaped(known(parts[0].gradients), shape) if gradients else None
         whole = {**vars(joined(parts, shape)), "gradients": slopes}
-        return SceneFriction._made(whole, notes=tuple(notes))
+        return SceneFriction._made(whole, notes=tuple(self.notes_with(remarks)))
 
     @property
     def _friction(self) -> Callable[..., Friction]:
@@ -239,36 +247,12 @@ class Scene:
             result: Friction = self._at(compute, pressure, velocity, shifted)
             return result
 
-    def _with_size_of_heat(self, notes: Sequence[Note]) -> Sequence[Note]:
-        """Let the note on heat that is left out say how much that is, where a_T is known."""
-        if not self._law:
-            return notes
-        pressure, velocity = self.points
-
-        def heated_at(i: int, heating: Heating) -> Friction:
-            return self._roughly(pressure=pressure[i], velocity=velocity[i], heating=heating)
-
-        return with_size_of_heat(notes, velocity, self.adhesion is not None, heated_at)
-
-    def _roughly(self, **points: Any) -> Friction:
-        """Friction to a few digits, of the rubber at its reference, shifted."""
-        return friction(
-            self.spectrum,
-            known(self.built_rubber.at_reference),
-            correction=self.correction,
-            adhesion=self.adhesion,
-            **self._law,
-            **{**self.options, "rtol": ROUGHLY},
-            **points,
-        )
-
-    def rise_over_roughness(
-        self, velocity: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Wavenumbers [1/m], and T(q) - T0 [K] there at each velocity and the first pressure."""
-        of_contacts = {"heating": self.heating, "contributions": True}
-        result = self._roughly(pressure=self.pressure[0], velocity=velocity, **of_contacts)
-        return known(result.wavenumber), known(result.temperature_profile) - known(self.temperature)
+    @property
+    def roughly(self) -> Callable[..., Friction]:
+        """`friction` to a few digits with heat, of the rubber at its reference, shifted."""
+        how: Any = {**self.options, **self._law, "adhesion": self.adhesion, "rtol": ROUGHLY}
+        rubber = known(self.built_rubber.at_reference)
+        return partial(friction, self.spectrum, rubber, correction=self.correction, **how)
 
     @property
     def asks_for_band(self) -> bool:
@@ -413,8 +397,3 @@ class Scene:
                 **options,
             )
         return density
-
-
-def _share(note: Note) -> float:
-    assert isinstance(note.value, float)
-    return note.value
