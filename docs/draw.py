@@ -65,8 +65,8 @@ def draw_tutorial() -> None:
 
 def draw_heat() -> None:
     comments = (HERE.parent / "tests/reference/flash.csv").read_text(encoding="utf-8")
-    found = re.findall(r"^# (moduli|relaxation_times) (.*)", comments, re.MULTILINE)
-    lists = {name: [float(term) for term in terms.split()] for name, terms in found}
+    result = re.findall(r"^# (moduli|relaxation_times) (.*)", comments, re.MULTILINE)
+    lists = {name: [float(term) for term in terms.split()] for name, terms in result}
     draw_scene(HEAT.format(**lists), HERE / "explanation/heat.png")
 
 

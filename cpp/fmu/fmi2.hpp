@@ -5,29 +5,29 @@
 
 namespace asperity_fmu {
 
-inline fmi2Status fmi2(Told told) {
-  return told == Told::ok ? fmi2OK : told == Told::warning ? fmi2Warning : fmi2Error;
+inline fmi2Status fmi2(Status status) {
+  return status == Status::ok ? fmi2OK : status == Status::warning ? fmi2Warning : fmi2Error;
 }
 
 /// `act` on each variable and its point. Parameters belong to point 0.
 template <class Act>
 fmi2Status each_value(fmi2Component c, const Call& call, const fmi2ValueReference vr[], std::size_t nvr, Act act) {
   return fmi2(guarded(c, call, [&](Instance& instance) {
-    Told told = Told::ok;
+    Status status = Status::ok;
     for (std::size_t i = 0; i < nvr; ++i) {
       const std::uint32_t variable = vr[i] % stride, point = vr[i] / stride;
       if (point >= instance.model->points() || (point > 0 && !is_of_a_point(variable)) || variable == time)
         return instance.error("value reference " + std::to_string(vr[i]) + " is unknown");
-      told = worse(told, act(instance, variable, point, i));
-      if (told == Told::error) return told;
+      status = worse(status, act(instance, variable, point, i));
+      if (status == Status::error) return status;
     }
-    return told;
+    return status;
   }));
 }
 
 inline fmi2Status none_of(fmi2Component c, std::size_t nvr, const char* kind) {
   return fmi2(guarded(c, [&](Instance& instance) {
-    return nvr == 0 ? Told::ok : instance.error(std::string("there is no variable of type ") + kind);
+    return nvr == 0 ? Status::ok : instance.error(std::string("there is no variable of type ") + kind);
   }));
 }
 
@@ -47,14 +47,14 @@ ASPERITY_FMU_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type
                                                   const fmi2CallbackFunctions* functions, fmi2Boolean, fmi2Boolean) {
   using namespace asperity_fmu;
   try {
-    std::function<void(Told, const char*)> tell;
+    std::function<void(Status, const char*)> tell;
     if (functions != nullptr && functions->logger != nullptr)
       tell = [log = functions->logger, host = functions->componentEnvironment,
-              who = std::string(name == nullptr ? "" : name)](Told told, const char* message) {
-        log(host, who.c_str(), fmi2(told), told == Told::warning ? warnings : errors, "%s", message);
+              who = std::string(name == nullptr ? "" : name)](Status status, const char* message) {
+        log(host, who.c_str(), fmi2(status), status == Status::warning ? warnings : errors, "%s", message);
       };
     if (type != fmi2CoSimulation) {
-      if (tell) tell(Told::error, "this FMU is for co-simulation alone");
+      if (tell) tell(Status::error, "this FMU is for co-simulation alone");
       return nullptr;
     }
     return make_instance(name, guid, "GUID", path_of_uri(resources == nullptr ? "" : resources), std::move(tell));
@@ -110,9 +110,9 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueRe
                     [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
                       if (variable != inside) return instance.error("`inside` is the only Integer");
                       double found = 0;
-                      const Told told = instance.get(variable, point, found);
+                      const Status status = instance.get(variable, point, found);
                       value[i] = static_cast<fmi2Integer>(found);
-                      return told;
+                      return status;
                     });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
@@ -125,9 +125,9 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueRe
   return each_value(c, reading, vr, nvr,
                     [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
                       bool on = false;
-                      const Told told = instance.get_switch(variable, point, on);
+                      const Status status = instance.get_switch(variable, point, on);
                       value[i] = on ? 1 : 0;
-                      return told;
+                      return status;
                     });
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
@@ -185,10 +185,10 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, con
                       for (std::size_t k = 0; k < n_knowns; ++k) {
                         const std::uint32_t input = knowns[k] % stride;
                         if (knowns[k] / stride != point) continue;
-                        if (instance.add_slope(output, input, point, seed[k], sensitivity[i]) == Told::error)
-                          return Told::error;
+                        if (instance.add_slope(output, input, point, seed[k], sensitivity[i]) == Status::error)
+                          return Status::error;
                       }
-                      return Told::ok;
+                      return Status::ok;
                     });
 }
 
@@ -212,7 +212,7 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2Stat
   if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
   return fmi2(guarded(c, [&](Instance& instance) {
     *value = instance.model->state().time;
-    return Told::ok;
+    return Status::ok;
   }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetIntegerStatus(fmi2Component, const fmi2StatusKind, fmi2Integer*) {

@@ -5,28 +5,28 @@
 
 namespace asperity_fmu {
 
-inline fmi3Status fmi3(Told told) {
-  return told == Told::ok ? fmi3OK : told == Told::warning ? fmi3Warning : fmi3Error;
+inline fmi3Status fmi3(Status status) {
+  return status == Status::ok ? fmi3OK : status == Status::warning ? fmi3Warning : fmi3Error;
 }
 
 /// `act` on each value of each variable, of which there must be n_values.
 template <class Act>
-Told each_entry(Instance& instance, const fmi3ValueReference vr[], std::size_t nvr, std::size_t n_values, Act act) {
-  Told told = Told::ok;
+Status each_entry(Instance& instance, const fmi3ValueReference vr[], std::size_t nvr, std::size_t n_values, Act act) {
+  Status status = Status::ok;
   std::size_t k = 0;
   for (std::size_t i = 0; i < nvr; ++i)
     for (std::size_t point = 0; point < (is_of_a_point(vr[i]) ? instance.model->points() : 1); ++point, ++k) {
       if (k >= n_values) return instance.error("there are more values than the " + std::to_string(n_values) + " given");
-      told = worse(told, act(vr[i], point, k));
-      if (told == Told::error) return told;
+      status = worse(status, act(vr[i], point, k));
+      if (status == Status::error) return status;
     }
-  return k == n_values ? told
+  return k == n_values ? status
                        : instance.error("there are " + std::to_string(k) + " values, not " + std::to_string(n_values));
 }
 
 inline fmi3Status no_variable_of(fmi3Instance instance, std::size_t nvr, const char* type) {
   return fmi3(guarded(instance, [&](Instance& of) {
-    return nvr == 0 ? Told::ok : of.error(std::string("there is no variable of type ") + type);
+    return nvr == 0 ? Status::ok : of.error(std::string("there is no variable of type ") + type);
   }));
 }
 
@@ -53,13 +53,14 @@ ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fm
                                                              fmi3IntermediateUpdateCallback) {
   using namespace asperity_fmu;
   try {
-    std::function<void(Told, const char*)> tell;
+    std::function<void(Status, const char*)> tell;
     if (log != nullptr)
-      tell = [log, host](Told told, const char* message) {
-        log(host, fmi3(told), told == Told::warning ? warnings : errors, message);
+      tell = [log, host](Status status, const char* message) {
+        log(host, fmi3(status), status == Status::warning ? warnings : errors, message);
       };
     if (event_mode || intermediate > 0) {
-      if (tell) tell(Told::error, "this FMU has neither an event mode nor intermediate updates: must not be asked for");
+      if (tell)
+        tell(Status::error, "this FMU has neither an event mode nor intermediate updates: must not be asked for");
       return nullptr;
     }
     return make_instance(name, token, "instantiation token",
@@ -88,8 +89,8 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance
                                                            fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop) {
   using namespace asperity_fmu;
   return fmi3(guarded(instance, entering, [&](Instance& of) {
-    const Told told = of.begin(start, has_stop, stop);
-    return told == Told::ok ? of.enter(entering, initializing) : told;
+    const Status status = of.begin(start, has_stop, stop);
+    return status == Status::ok ? of.enter(entering, initializing) : status;
   }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
@@ -130,9 +131,9 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3Val
     return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       if (variable != inside) return of.error("`inside` is the only Int32");
       double found = 0;
-      const Told told = of.get(variable, point, found);
+      const Status status = of.get(variable, point, found);
       values[k] = static_cast<fmi3Int32>(found);
-      return told;
+      return status;
     });
   }));
 }
@@ -234,7 +235,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instanc
     const auto add = [&](std::uint32_t output, std::size_t point, std::size_t i) {
       sensitivity[i] = 0;
       return each_entry(of, knowns, n_knowns, n_seed, [&](std::uint32_t input, std::size_t at, std::size_t k) {
-        if (at != point) return Told::ok;
+        if (at != point) return Status::ok;
         return of.add_slope(output, input, point, seed[k], sensitivity[i]);
       });
     };
@@ -247,11 +248,11 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 fro
                                           fmi3Float64* reached) {
   using namespace asperity_fmu;
   return fmi3(guarded(instance, stepping_on, [&](Instance& of) {
-    const Told told = of.step(from, size);
+    const Status status = of.step(from, size);
     for (fmi3Boolean* const answer : {event, terminate, early})
       if (answer != nullptr) *answer = false;
     if (reached != nullptr) *reached = of.model->state().time;
-    return told;
+    return status;
   }));
 }
 

@@ -67,20 +67,20 @@ constexpr Call setting_up{"the setup of the experiment", instantiated},
 struct Instance {
   std::string name;
   std::unique_ptr<Model> model;
-  std::function<void(Told, const char*)> tell;  // empty where the host does not listen
+  std::function<void(Status, const char*)> tell;  // empty where the host does not listen
   Phase phase = instantiated;
   bool warned = false;
   bool tells_warnings = true, tells_errors = true;  // until the host switches them off
   double stop = std::numeric_limits<double>::infinity();
 
-  Told error(const std::string& message) const {
-    if (tell && tells_errors) tell(Told::error, message.c_str());
-    return Told::error;
+  Status error(const std::string& message) const {
+    if (tell && tells_errors) tell(Status::error, message.c_str());
+    return Status::error;
   }
 
   /// An error where the call is not allowed now.
-  Told allow(const Call& call) const {
-    if ((call.phases & phase) != 0) return Told::ok;
+  Status allow(const Call& call) const {
+    if ((call.phases & phase) != 0) return Status::ok;
     const char* const now = phase == instantiated   ? "before the initialization"
                             : phase == initializing ? "during the initialization"
                             : phase == stepping     ? "after the initialization"
@@ -88,14 +88,14 @@ struct Instance {
     return error(std::string(call.name) + " is not allowed " + now);
   }
 
-  Told enter(const Call& call, Phase next) {
-    const Told told = allow(call);
-    if (told == Told::ok) phase = next;
-    return told;
+  Status enter(const Call& call, Phase next) {
+    const Status status = allow(call);
+    if (status == Status::ok) phase = next;
+    return status;
   }
 
   /// Switches categories of messages on or off, all of them where none is named.
-  Told log(bool on, std::size_t n, const char* const names[]) {
+  Status log(bool on, std::size_t n, const char* const names[]) {
     if (n == 0) tells_warnings = tells_errors = on;
     for (std::size_t i = 0; i < n; ++i) {
       const std::string category = names[i] == nullptr ? "" : names[i];
@@ -103,116 +103,116 @@ struct Instance {
         return error("log category \"" + category + "\" is unknown: must be " + warnings + " or " + errors);
       (category == warnings ? tells_warnings : tells_errors) = on;
     }
-    return Told::ok;
+    return Status::ok;
   }
 
   /// The times between which the host will step.
-  Told begin(double start, bool has_stop, double end) {
+  Status begin(double start, bool has_stop, double end) {
     if (!std::isfinite(start) || (has_stop && !(end >= start)))
       return error("a simulation from " + std::to_string(start) + " to " + std::to_string(end) +
                    " s: must begin at a finite time and end no earlier");
     model->set_time(start);
     stop = has_stop ? end : std::numeric_limits<double>::infinity();
-    return Told::ok;
+    return Status::ok;
   }
 
   /// The host hears of it once, until all points are inside again.
-  Told outside(Told found) {
-    if (found == Told::ok) {
+  Status outside(Status found) {
+    if (found == Status::ok) {
       warned = false;
     } else if (!warned) {
       warned = true;
       if (tell && tells_warnings)
-        tell(Told::warning, model->state().clamp
-                                ? "a point lies outside of the map: mu is that of the map's nearest point"
-                                : "a point lies outside of the map: mu is NaN");
+        tell(Status::warning, model->state().clamp
+                                  ? "a point lies outside of the map: mu is that of the map's nearest point"
+                                  : "a point lies outside of the map: mu is NaN");
     }
     return found;
   }
 
-  [[nodiscard]] Told get(std::uint32_t variable, std::size_t point, double& value) {
-    const Told told = model->get(variable, point, value);
-    return told == Told::error ? error("value reference " + std::to_string(variable) + " is no number to be read")
-                               : told;
+  [[nodiscard]] Status get(std::uint32_t variable, std::size_t point, double& value) {
+    const Status status = model->get(variable, point, value);
+    return status == Status::error ? error("value reference " + std::to_string(variable) + " is no number to be read")
+                                   : status;
   }
 
-  [[nodiscard]] Told set(std::uint32_t variable, std::size_t point, double value) {
+  [[nodiscard]] Status set(std::uint32_t variable, std::size_t point, double value) {
     return model->set(variable, point, value)
-               ? Told::ok
+               ? Status::ok
                : error("value reference " + std::to_string(variable) + " is no input: it cannot be set");
   }
 
-  [[nodiscard]] Told get_switch(std::uint32_t variable, std::size_t point, bool& on) const {
+  [[nodiscard]] Status get_switch(std::uint32_t variable, std::size_t point, bool& on) const {
     return model->get_switch(variable, point, on)
-               ? Told::ok
+               ? Status::ok
                : error("value reference " + std::to_string(variable) + " is no Boolean");
   }
 
-  [[nodiscard]] Told set_switch(std::uint32_t variable, std::size_t point, bool on) {
+  [[nodiscard]] Status set_switch(std::uint32_t variable, std::size_t point, bool on) {
     return model->set_switch(variable, point, on)
-               ? Told::ok
+               ? Status::ok
                : error("value reference " + std::to_string(variable) + " is no Boolean that can be set");
   }
 
   /// Adds seed times d output / d input.
-  [[nodiscard]] Told add_slope(std::uint32_t output, std::uint32_t input, std::size_t point, double seed,
-                               double& sum) const {
+  [[nodiscard]] Status add_slope(std::uint32_t output, std::uint32_t input, std::size_t point, double seed,
+                                 double& sum) const {
     if (!is_real_output(output) || !(input == pressure || input == velocity ||
                                      ((input == temperature || input == direction) && model->has(input))))
       return error("there is no derivative of value reference " + std::to_string(output) + " by " +
                    std::to_string(input) +
                    ": must be of a real output by pressure, velocity, temperature or direction");
     sum += seed * model->slope(output, input, point);
-    return Told::ok;
+    return Status::ok;
   }
 
-  Told reset() {
+  Status reset() {
     model->start_anew();
     phase = instantiated;
     warned = false;
     stop = std::numeric_limits<double>::infinity();
-    return Told::ok;
+    return Status::ok;
   }
 
   // States that the host keeps; it gives an old one back to be written over, or null.
 
-  Told keep(void** kept) const {
+  Status keep(void** kept) const {
     if (*kept == nullptr) *kept = new State;
     *static_cast<State*>(*kept) = model->state();
-    return Told::ok;
+    return Status::ok;
   }
 
-  Told restore(const void* kept) {
+  Status restore(const void* kept) {
     if (kept == nullptr) return error("there is no state to go back to");
     const State& state = *static_cast<const State*>(kept);
     if (state.points.size() != model->points()) return error("the state is one of another number of points");
     model->restore(state);
-    return Told::ok;
+    return Status::ok;
   }
 
-  Told size_of(const void* kept, std::size_t& size) const {
+  Status size_of(const void* kept, std::size_t& size) const {
     if (kept == nullptr) return error("there is no state to be written");
     size = size_in_bytes(*static_cast<const State*>(kept));
-    return Told::ok;
+    return Status::ok;
   }
 
-  Told write(const void* kept, void* bytes, std::size_t size) const {
+  Status write(const void* kept, void* bytes, std::size_t size) const {
     std::size_t needed = 0;
-    if (size_of(kept, needed) != Told::ok) return Told::error;
+    if (size_of(kept, needed) != Status::ok) return Status::error;
     if (size < needed) return error("a state needs " + std::to_string(needed) + " bytes");
     to_bytes(*static_cast<const State*>(kept), bytes);
-    return Told::ok;
+    return Status::ok;
   }
 
-  Told read(const void* bytes, std::size_t size, void** kept) const {
+  Status read(const void* bytes, std::size_t size, void** kept) const {
     State state = model->state();
     if (!from_bytes(bytes, size, state)) return error("the bytes are not those of a state of this FMU");
     if (*kept == nullptr) *kept = new State;
     *static_cast<State*>(*kept) = std::move(state);
-    return Told::ok;
+    return Status::ok;
   }
 
-  [[nodiscard]] Told step(double from, double size) {
+  [[nodiscard]] Status step(double from, double size) {
     if (!std::isfinite(from) || !std::isfinite(size) || size < 0)
       return error("a step from " + std::to_string(from) + " by " + std::to_string(size) +
                    " s: the time must be finite and the step not negative");
@@ -224,32 +224,32 @@ struct Instance {
   }
 };
 
-inline Told forget(void** kept) {
+inline Status forget(void** kept) {
   delete static_cast<State*>(*kept);
   *kept = nullptr;
-  return Told::ok;
+  return Status::ok;
 }
 
 /// The worse of two.
-inline Told worse(Told a, Told b) { return a < b ? b : a; }
+inline Status worse(Status a, Status b) { return a < b ? b : a; }
 
 /// Runs `function`; what it throws, for want of memory, is an error.
 template <class Function>
-Told guarded(void* instance, Function function) {
-  if (instance == nullptr) return Told::error;
+Status guarded(void* instance, Function function) {
+  if (instance == nullptr) return Status::error;
   try {
     return function(*static_cast<Instance*>(instance));
   } catch (...) {
-    return Told::error;
+    return Status::error;
   }
 }
 
 /// The same for a call that is not allowed at all times.
 template <class Function>
-Told guarded(void* instance, const Call& call, Function function) {
+Status guarded(void* instance, const Call& call, Function function) {
   return guarded(instance, [&](Instance& of) {
-    const Told told = of.allow(call);
-    return told == Told::ok ? function(of) : told;
+    const Status status = of.allow(call);
+    return status == Status::ok ? function(of) : status;
   });
 }
 
@@ -282,7 +282,7 @@ inline std::filesystem::path path_of_uri(const std::string& uri) {
 /// An instance with its map, or null: the host hears why. `token` is that of the description which the host has read,
 /// called `token_name` in its standard: of another FMU than the one in `resources`, references mean something else.
 inline Instance* make_instance(const char* name, const char* token, const std::string& token_name,
-                               const std::filesystem::path& resources, std::function<void(Told, const char*)> tell) {
+                               const std::filesystem::path& resources, std::function<void(Status, const char*)> tell) {
   auto made = std::make_unique<Instance>();
   made->name = name == nullptr ? "" : name;
   made->tell = std::move(tell);

@@ -96,7 +96,7 @@ struct State {
   bool clamp = true, memory = true;
 };
 
-enum class Told { ok, warning, error };
+enum class Status { ok, warning, error };
 
 class Model {
  public:
@@ -207,54 +207,54 @@ class Model {
 
   /// A warning where the point lies outside of the map's box or a number is NaN: the value is NaN, or with `clamp`
   /// that of the nearest point of the box.
-  Told get(std::uint32_t variable, std::size_t point, double& value) {
-    if (!has(variable)) return Told::error;
+  Status get(std::uint32_t variable, std::size_t point, double& value) {
+    if (!has(variable)) return Status::error;
     switch (variable) {
       case time:
         value = state_.time;
-        return Told::ok;
+        return Status::ok;
       case pressure:
         value = state_.points[point].pressure;
-        return Told::ok;
+        return Status::ok;
       case velocity:
         value = state_.points[point].velocity;
-        return Told::ok;
+        return Status::ok;
       case temperature:
         value = state_.points[point].temperature;
-        return Told::ok;
+        return Status::ok;
       case direction:
         value = state_.points[point].direction;
-        return Told::ok;
+        return Status::ok;
       case slid_distance:
         value = state_.points[point].distance;
-        return Told::ok;
+        return Status::ok;
       case a_T:
         value = state_.a_T;
-        return Told::ok;
+        return Status::ok;
       case max_error:
         value = map_.info().max_error;
-        return Told::ok;
+        return Status::ok;
       default:
         break;
     }
-    if (variable < first_output || variable > last_output) return Told::error;
+    if (variable < first_output || variable > last_output) return Status::error;
     Found& found = found_[point];
     if (!found.known) found = look_up(state_.points[point]);
     value = found.values[variable - first_output];
-    return found.values[inside - first_output] == 1 ? Told::ok : Told::warning;
+    return found.values[inside - first_output] == 1 ? Status::ok : Status::warning;
   }
 
   /// A warning where a point lies outside.
-  Told step(double from, double size) {
+  Status step(double from, double size) {
     state_.time = from + size;
-    Told told = Told::ok;
+    Status status = Status::ok;
     if (map_.info().heat)
       for (std::size_t i = 0; i < points(); ++i) slide(i, size);
     for (std::size_t i = 0; i < points(); ++i) {
       double is_inside = 0;
-      if (get(inside, i, is_inside) != Told::ok) told = Told::warning;
+      if (get(inside, i, is_inside) != Status::ok) status = Status::warning;
     }
-    return told;
+    return status;
   }
 
   /// d output / d input of a point: in closed form for mu and traction over pressure and

@@ -32,12 +32,12 @@ def steps_of_core() -> dict[str, str]:
 
 def _arguments(text: str, begin: int) -> list[str]:
     """The arguments of a call in C++, from the place behind its parenthesis."""
-    depth, found = 1, []
+    depth, result = 1, []
     for token in _TOKEN.finditer(text, begin):
         depth += (token[0] in "({[") - (token[0] in ")}]")
         if depth == 0 or (depth == 1 and token[0] == ","):
-            found.append(text[begin : token.start()])
+            result.append(text[begin : token.start()])
             begin = token.end()
         if depth == 0:
             break
-    return found
+    return result

@@ -46,7 +46,9 @@ _SEVERAL = ("ends", "rubber")  # tables of several sources, of which each has ke
 def page(text: str) -> str:
     """The page on scenes with its tables as the declarations have them."""
     mark = re.compile(r"^(<!-- keys: (\w+) -->\n)(?:\|.*\n)*", re.M)
-    return mark.sub(lambda found: found[1] + "".join(f"{row}\n" for row in table(found[2])), text)
+    return mark.sub(
+        lambda result: result[1] + "".join(f"{row}\n" for row in table(result[2])), text
+    )
 
 
 def table(name: str) -> list[str]:
@@ -102,11 +104,11 @@ def _meanings(of: Callable[..., Any]) -> dict[str, str]:
     if text is None or "Parameters\n" not in text:
         return {}
     section: Any = _PARAMETERS.search(text + "\n")
-    found = {}
+    result = {}
     for names, body in _ENTRY.findall(section[1]):
         for name in re.findall(r"\w+", names.split(" : ")[0]):
-            found[name] = " ".join(body.split())
-    return found
+            result[name] = " ".join(body.split())
+    return result
 
 
 if __name__ == "__main__":

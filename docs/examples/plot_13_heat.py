@@ -37,9 +37,9 @@ left.set_ylim(bottom=0)
 left.legend()
 
 speeds = np.array([0.01, 0.1, 1.0, 10.0])
-found = asperity.friction(road, rubber, velocity=speeds, contributions=True, **setting)
-for speed, profile in zip(speeds, found.temperature_profile, strict=True):
-    right.plot(found.wavenumber, profile - 273.15, label=f"{speed:g} m/s")
+result = asperity.friction(road, rubber, velocity=speeds, contributions=True, **setting)
+for speed, profile in zip(speeds, result.temperature_profile, strict=True):
+    right.plot(result.wavenumber, profile - 273.15, label=f"{speed:g} m/s")
 right.set(xscale="log", xlabel="wavenumber [1/m]", ylabel="temperature of the rubber [°C]")
 right.set_xticks([2e3, 5e3, 1e4, 2e4], ["2000", "5000", "10000", "20000"])
 right.minorticks_off()

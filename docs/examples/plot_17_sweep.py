@@ -18,7 +18,7 @@ scene = {
     "conditions": {"velocity_m_s": {"from": 1e-6, "to": 1, "points": 60}},
 }
 soft, hard = (10 ** np.linspace(low, 6, 9) for low in (8.6, 9.0))
-found = asperity.sweep(
+result = asperity.sweep(
     scene,
     {
         "correction.kind": ["none", "partial-contact"],
@@ -29,10 +29,10 @@ found = asperity.sweep(
         },
     },
 )
-panels = found.sizes["conditions.pressure_pa"]
+panels = result.sizes["conditions.pressure_pa"]
 figure, all_axes = plt.subplots(1, panels, sharey=True, figsize=(9, 3.2), layout="constrained")
-velocity = found["conditions.velocity_m_s"]
-by_pressure = found.mu.transpose("conditions.pressure_pa", "compound", "correction.kind", ...)
+velocity = result["conditions.velocity_m_s"]
+by_pressure = result.mu.transpose("conditions.pressure_pa", "compound", "correction.kind", ...)
 for axes, at_pressure in zip(all_axes, by_pressure, strict=True):
     for colour, name, mu in zip(("C0", "C1"), ("soft", "hard"), at_pressure, strict=True):
         plain, corrected = mu

@@ -27,9 +27,9 @@ def rubber(x):
 
 def grip(x):
     """mu at both speeds, and d mu over all six logarithms."""
-    found = asperity.friction(road, rubber(x), gradients=True, **points)
-    of = found.gradients
-    return found.mu, np.hstack([of.moduli, of.relaxation_times])
+    result = asperity.friction(road, rubber(x), gradients=True, **points)
+    of = result.gradients
+    return result.mu, np.hstack([of.moduli, of.relaxation_times])
 
 
 def rolling(x):
@@ -59,8 +59,8 @@ limits = {
         },
     ],
 }
-found = minimize(loss_tangent, start, jac=True, method="SLSQP", **limits)
-assert found.success
+result = minimize(loss_tangent, start, jac=True, method="SLSQP", **limits)
+assert result.success
 
 # %%
 # Grip is made at the frequencies of the road's waves and rolling loss at 10 Hz: the terms move to
@@ -68,7 +68,7 @@ assert found.success
 
 figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
 w = np.geomspace(1, 1e9, 200)
-for name, x, colour in (("start", start, "0.6"), ("design", found.x, "C0")):
+for name, x, colour in (("start", start, "0.6"), ("design", result.x, "C0")):
     modulus = rubber(x).modulus(w)
     left.plot(w, modulus.imag / modulus.real, color=colour, label=name)
 left.axvline(ROLLING, color="C3", lw=0.8, label="10 Hz")
@@ -76,7 +76,7 @@ left.axvspan(0.1 * road.q0, road.q1, color="0.9", zorder=0, label="waves of the 
 left.set(xscale="log", xlabel="angular frequency [rad/s]", ylabel="loss tangent [-]")
 left.legend(fontsize="small")
 velocity = np.geomspace(1e-2, 10, 40)
-for name, x, colour in (("start", start, "0.6"), ("design", found.x, "C0")):
+for name, x, colour in (("start", start, "0.6"), ("design", result.x, "C0")):
     mu = asperity.friction(road, rubber(x), **{**points, "velocity": velocity}).mu
     right.plot(velocity, mu, color=colour, label=name)
 right.plot(points["velocity"], GRIP, "o", color="C3", label="asked for")
@@ -84,8 +84,8 @@ right.set(xscale="log", xlabel="sliding velocity [m/s]", ylabel="friction coeffi
 right.legend(fontsize="small")
 
 # %%
-for name, x in (("start", start), ("design", found.x)):
+for name, x in (("start", start), ("design", result.x)):
     slow, fast = grip(x)[0]
     print(f"{name}: mu {slow:.3f} and {fast:.3f}, loss tangent {loss_tangent(x)[0]:.4f} at 10 Hz")
-for modulus, time in np.exp(found.x).reshape(2, 3).T:
+for modulus, time in np.exp(result.x).reshape(2, 3).T:
     print(f"  {modulus / 1e6:.3g} MPa at {time:.2g} s")

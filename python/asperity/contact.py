@@ -305,11 +305,11 @@ def _at_points(
     """Return what the core gives, of each direction at a time, in the shape of all and `more`."""
     parts = surface_and_rubber(spectrum, rubber)
     shape, each = toward_each(direction, points)
-    found = np.empty((math.prod(shape), *more))
+    result = np.empty((math.prod(shape), *more))
     for angle, where, place in each:
         rows = function(*parts, model(angle), *place.values(), wavenumber)
-        found[where] = rows.reshape(-1, *more)
-    return shaped(found, (*shape, *more))
+        result[where] = rows.reshape(-1, *more)
+    return shaped(result, (*shape, *more))
 
 
 def implausible_notes(

@@ -298,8 +298,8 @@ def master_curve_modes(
 ) -> tuple[Array, Array, Array]:
     """Return what the independent unit normals behind a draw change to first order, a row each: ln
     E' and ln E'' at these frequencies [rad/s], and log10 a_T of the isotherms."""
-    found: tuple[Array, Array, Array] = _core.master_curve_modes(*_parts(build), angular_frequency)
-    return found
+    result: tuple[Array, Array, Array] = _core.master_curve_modes(*_parts(build), angular_frequency)
+    return result
 
 
 def _parts(build: MasterCurveBuild) -> tuple[Any, ...]:

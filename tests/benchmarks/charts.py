@@ -40,7 +40,7 @@ def rows_of(text: str) -> tuple[Rows, str]:
 
 def page(tables: dict[str, str]) -> str:
     """The page's tables from the CSV files by their names."""
-    found = [
+    result = [
         (row["surface"], row["rubber"], *map(float, list(row.values())[2:]))
         for row in rows_of(tables["rings.csv"])[0]
     ]
@@ -83,8 +83,8 @@ def page(tables: dict[str, str]) -> str:
         ],
     ]
     return (
-        f"{machine}, one thread:\n\n{rings.markdown(found)}\n{timing.markdown(header, lines)}\n"
-        f"{timing.markdown(['at rtol 1e-6 unless said', 'found'], more)}"
+        f"{machine}, one thread:\n\n{rings.markdown(result)}\n{timing.markdown(header, lines)}\n"
+        f"{timing.markdown(['at rtol 1e-6 unless said', 'result'], more)}"
     )
 
 

@@ -89,9 +89,9 @@ class Curve:
     def of_velocities(self, some: slice) -> "Curve":
         return replace(self, velocity=self.velocity[some], truth=self.truth[some])
 
-    def error(self, found: Array) -> float:
+    def error(self, result: Array) -> float:
         """The worst of the curve, relative."""
-        return float(np.abs(found / self.truth - 1).max())
+        return float(np.abs(result / self.truth - 1).max())
 
 
 def curves() -> dict[str, Curve]:

@@ -58,17 +58,17 @@ def curve_table() -> tuple[str, dict[str, list[object]]]:
     errors = {name: curve.error(call()) for name, call in calls.items()}
     few = curve.of_velocities(slice(EVERY // 2, None, EVERY))
     with warnings.catch_warnings(action="ignore"):  # scipy knows that it does not converge
-        elapsed, found = timing.timed(partial(nested_quad, few, 1e-6))
+        elapsed, result = timing.timed(partial(nested_quad, few, 1e-6))
     name = f"nested quad, scaled from {few.truth.size} velocities"
-    times[name], errors[name] = [EVERY * elapsed], few.error(found)
+    times[name], errors[name] = [EVERY * elapsed], few.error(result)
     columns: dict[str, list[object]] = {
         "method": list(times),
-        "time_s": [timing.median(found) for found in times.values()],
+        "time_s": [timing.median(result) for result in times.values()],
         "error": list(errors.values()),
     }
     for key, yardstick in YARDSTICKS.items():
         columns[f"{key}_ratio"] = [
-            timing.ratio(times[yardstick], found) for found in times.values()
+            timing.ratio(times[yardstick], result) for result in times.values()
         ]
     header = ["method", "time [us]", "worst error", *(f"{key} NumPy over it" for key in YARDSTICKS)]
     rows = [
@@ -104,8 +104,8 @@ def tabulated() -> tuple[str, dict[str, float]]:
 
 def make() -> timing.Report:
     of_curve, columns = curve_table()
-    text, found = tabulated()
-    other = {"quantity": list(found), "value": list(found.values())}
+    text, result = tabulated()
+    other = {"quantity": list(result), "value": list(result.values())}
     files = {
         "friction.csv": timing.table("benchmark friction", columns),
         "tabulated.csv": timing.table("benchmark tabulated modulus", other),

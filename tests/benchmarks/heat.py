@@ -73,7 +73,7 @@ def scenes() -> Mapping[str, Scene]:
     columns = {name: [float(x) for x in numbers] for name, *numbers in kept}
     rubber = asperity.PronySeries(equilibrium_modulus=2e6, **columns)
     rows = list(csv.DictReader(line for line in lines if line[0] != "#"))
-    found = {}
+    result = {}
     for kind, name in SCENES.items():
         of_kind = [
             row
@@ -82,20 +82,20 @@ def scenes() -> Mapping[str, Scene]:
             and float(row["pressure"]) == PRESSURE
             and float(row["velocity"]) >= SLOWEST
         ]
-        found[name] = Scene(
+        result[name] = Scene(
             road=ASPHALT.truncated(q1=float(of_kind[0]["q1"])),
             rubber=rubber,
             temperature=float(of_kind[0]["temperature"]),
             velocity=np.array([float(row["velocity"]) for row in of_kind]),
             mu=np.array([float(row["mu_h"]) for row in of_kind]),
         )
-    return found
+    return result
 
 
 def methods() -> Mapping[str, dict[str, Any]]:
-    found: dict[str, dict[str, Any]] = {"without heat": {"rtol": 1e-6}}
+    result: dict[str, dict[str, Any]] = {"without heat": {"rtol": 1e-6}}
     full = asperity.Heating(**TREAD)
-    return found | {f"{PROFILE}, rtol {rtol:g}": {"rtol": rtol, "heating": full} for rtol in RTOL}
+    return result | {f"{PROFILE}, rtol {rtol:g}": {"rtol": rtol, "heating": full} for rtol in RTOL}
 
 
 def measure() -> list[Line]:

@@ -17,8 +17,8 @@ UNITS = {"frequency": "Hz", "temperature": "C", "modulus": "Pa"}
 
 
 def folder() -> Path | None:
-    found = os.environ.get("ASPERITY_DATA")
-    return Path(found) if found else None
+    result = os.environ.get("ASPERITY_DATA")
+    return Path(result) if result else None
 
 
 def spectra() -> dict[str, asperity.TabulatedSpectrum]:

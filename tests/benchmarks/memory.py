@@ -83,12 +83,12 @@ def megabytes(make: str, step: str) -> float:
 
 
 def make() -> timing.Report:
-    found = {name: megabytes(*step) for name, step in STEPS.items()}
+    result = {name: megabytes(*step) for name, step in STEPS.items()}
     text = timing.markdown(
         ["step", "peak above its inputs [MB]"],
-        [[name, f"{peak:.1f}"] for name, peak in found.items()],
+        [[name, f"{peak:.1f}"] for name, peak in result.items()],
     )
-    columns = {"step": list(found), "peak_mb": list(found.values())}
+    columns = {"step": list(result), "peak_mb": list(result.values())}
     return timing.Report(text, {"memory.csv": timing.table("benchmark memory", columns)})
 
 

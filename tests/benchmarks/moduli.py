@@ -95,12 +95,12 @@ class Steffen:
         return self._integrals(w, slopes=True)  # type: ignore
 
     def _integrals(self, w: Array, slopes: bool) -> Array:
-        found = np.empty((4 if slopes else 2, w.size))
+        result = np.empty((4 if slopes else 2, w.size))
         for at, some in _blocks(w, BLOCK // 8):
-            found[:, at] = self._tail(some, slopes)
+            result[:, at] = self._tail(some, slopes)
             for i in range(np.searchsorted(self.knots[:-1], some.max())):
-                found[:, at] += self._interval(i, some, slopes)  # of no width above w
-        return found
+                result[:, at] += self._interval(i, some, slopes)  # of no width above w
+        return result
 
     def _interval(self, i: int, w: Array, slopes: bool) -> Array:
         near, far = (np.arccosh(np.maximum(w / self.knots[k], 1)) for k in (i + 1, i))

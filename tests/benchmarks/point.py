@@ -42,7 +42,7 @@ def measure() -> dict[float, dict[str, float]]:
     """Seconds by rtol and by CALLS."""
     timed = compiled.module("point", "-std=c++20", "-O3", libraries=(library(),))
     curve = curves()["Table 1"]
-    inputs, found = curve.inputs, {}
+    inputs, result = curve.inputs, {}
     names = ("rms_height", "hurst", "q0", "q1", "equilibrium_modulus", "moduli", "relaxation_times")
     for rtol in RTOLS:
         options = {"velocity": VELOCITY, "correction": curve.correction, "rtol": rtol}
@@ -55,8 +55,8 @@ def measure() -> dict[float, dict[str, float]]:
         scene = [inputs[name] for name in (*names, "pressure")]
         by_cpp = timed.seconds(*scene, VELOCITY, inputs["gamma"], rtol, 15, 200)
         times = (timing.median(by_cpp), timing.typical(call, 15), timing.typical(empty, 15))
-        found[rtol] = dict(zip(CALLS, times, strict=True))
-    return found
+        result[rtol] = dict(zip(CALLS, times, strict=True))
+    return result
 
 
 def grid(side: int) -> float:
@@ -72,17 +72,17 @@ def grid(side: int) -> float:
 
 
 def make() -> timing.Report:
-    found, whole = measure(), grid(SIDE)
+    result, whole = measure(), grid(SIDE)
     rows = [
         [
             f"{rtol:.0e}",
             *(f"{1e6 * t:.2f}" for t in times.values()),
             f"{times['python'] / (times['cpp'] + times['empty']):.2f}",
         ]
-        for rtol, times in found.items()
+        for rtol, times in result.items()
     ]
     header = ["rtol", "C++ [us]", "Python [us]", "empty [us]", "Python / (C++ + empty)"]
-    alone = found[1e-6]["cpp"]
+    alone = result[1e-6]["cpp"]
     text = (
         f"One point:\n\n{timing.markdown(header, rows)}\n"
         f"Grid of {SIDE} x {SIDE} at rtol 1e-6: {whole:.3g} s, {1e6 * whole / SIDE**2:.3g} us a "
@@ -90,7 +90,7 @@ def make() -> timing.Report:
     )
     quantities = {
         f"{name}, rtol {rtol:.0e}": seconds
-        for rtol, times in found.items()
+        for rtol, times in result.items()
         for name, seconds in times.items()
     }
     quantities[f"grid {SIDE} x {SIDE}"] = whole

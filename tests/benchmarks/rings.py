@@ -89,7 +89,7 @@ def friction(surface: Any, rubber: Any, velocity: Any, **options: Any) -> Any:
 
 def scenes() -> dict[tuple[str, str], Inputs]:
     closed = partial(asperity.SelfAffineSpectrum, rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
-    found = {(CLOSED, TERMS): Inputs(closed, rubber, VELOCITY)}
+    result = {(CLOSED, TERMS): Inputs(closed, rubber, VELOCITY)}
     builds = measured.rubbers()
     fitted = {name: asperity.fit_prony(build) for name, build in builds.items()}
     for scan, spectrum in measured.spectra().items():
@@ -103,26 +103,26 @@ def scenes() -> dict[tuple[str, str], Inputs]:
                 **rows(fitted[name], "equilibrium_modulus", "moduli", "relaxation_times"),
             )
             terms = f"{name}, {fitted[name].moduli.size} Prony terms"
-            found[title, terms] = Inputs(surface, series, velocity)
+            result[title, terms] = Inputs(surface, series, velocity)
             names = ("angular_frequency", "storage_modulus", "loss_modulus")
             table = partial(asperity.MasterCurve, **rows(curve, *names))
             terms = f"{name}, master curve of {curve.angular_frequency.size} rows"
-            found[title, terms] = Inputs(surface, table, velocity)
+            result[title, terms] = Inputs(surface, table, velocity)
     for name, shape in SYNTHETIC.items():
         surface = partial(rings, *shape)
-        found[name, TERMS] = Inputs(surface, rubber, VELOCITY)
+        result[name, TERMS] = Inputs(surface, rubber, VELOCITY)
         for terms, noise in CURVES.items():
-            found[name, terms] = Inputs(
+            result[name, terms] = Inputs(
                 surface, partial(asperity.MasterCurve, **tabulated(noise)), VELOCITY
             )
-    return found
+    return result
 
 
 def rows(given: Any, *names: str) -> dict[str, Any]:
     return {name: getattr(given, name) for name in names}
 
 
-def markdown(found: list[tuple[Any, ...]]) -> str:
+def markdown(result: list[tuple[Any, ...]]) -> str:
     """The table of surface, rubber, time, ratio, time of once and error."""
     header = ["surface", "rubber", "a velocity [us]", "ratio", "once [ms]", "worst error"]
     lines = [
@@ -134,7 +134,7 @@ def markdown(found: list[tuple[Any, ...]]) -> str:
             timing.number(1e3 * once),
             f"{worst:.0e}",
         ]
-        for surface, terms, t, ratio, once, worst in found
+        for surface, terms, t, ratio, once, worst in result
     ]
     return timing.markdown(header, lines)
 
@@ -149,11 +149,11 @@ def make() -> timing.Report:
     columns: dict[str, list[object]] = {
         "surface": [surface for surface, _ in times],
         "rubber": [terms for _, terms in times],
-        "time_s": [timing.median(found) for found in times.values()],
-        "ratio": [timing.ratio(found, times[CLOSED, TERMS]) for found in times.values()],
+        "time_s": [timing.median(result) for result in times.values()],
+        "ratio": [timing.ratio(result, times[CLOSED, TERMS]) for result in times.values()],
         "once_s": [
-            max(0.0, timing.median(first[case]) - timing.median(found))
-            for case, found in times.items()
+            max(0.0, timing.median(first[case]) - timing.median(result))
+            for case, result in times.items()
         ],
         "error": [inputs.error() for inputs in cases.values()],
     }

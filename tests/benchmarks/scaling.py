@@ -49,45 +49,45 @@ def measure() -> dict[str, dict[int, float]]:
     """Seconds by the number of terms, by that of points, and by that of rings."""
     curve = curves()["Table 1"]
     load = curve.inputs["pressure"]
-    found: dict[str, dict[int, float]] = {
+    result: dict[str, dict[int, float]] = {
         "terms": {n: seconds(curve, series(curve, n), load, curve.velocity) for n in TERMS},
         "velocities": {},
         "grid": {},
     }
     for n in POINTS:
         velocity, side = np.geomspace(1e-6, 10, n), round(n**0.5)
-        found["velocities"][n] = seconds(curve, curve.rubber, load, velocity)
+        result["velocities"][n] = seconds(curve, curve.rubber, load, velocity)
         pressure = np.geomspace(1e4, 1e6, side)[:, None]
-        found["grid"][side**2] = seconds(
+        result["grid"][side**2] = seconds(
             curve, curve.rubber, pressure, np.geomspace(1e-6, 10, side)
         )
     table = measured_curves()["392 rings, master curve"].rubber
     for name, rubber in (("rings", curve.rubber), ("rings, master curve", table)):
-        found[name] = {
+        result[name] = {
             n: seconds(curve, rubber, load, np.geomspace(1e-5, 1, 60), rings(n, 8)) for n in ROWS
         }
-    return found
+    return result
 
 
-def exponent(found: dict[int, float]) -> float:
+def exponent(result: dict[int, float]) -> float:
     """Of the power law through the larger counts."""
-    x, y = np.log([(n, t) for n, t in found.items() if n >= max(found) / SMALL]).T
+    x, y = np.log([(n, t) for n, t in result.items() if n >= max(result) / SMALL]).T
     return float(np.polyfit(x, y, 1)[0])
 
 
-def straight(found: dict[int, float]) -> tuple[float, float]:
+def straight(result: dict[int, float]) -> tuple[float, float]:
     """Seconds of none, and of each one more, by least squares of the relative error."""
-    n, t = np.array(list(found.items())).T
+    n, t = np.array(list(result.items())).T
     slope, start = np.polyfit(n, t, 1, w=1 / t)
     return float(start), float(slope)
 
 
-def draw(found: dict[str, dict[int, float]], path: Path) -> bytes:
+def draw(result: dict[str, dict[int, float]], path: Path) -> bytes:
     figure, (left, right, last) = new_figure(3)
-    start, slope = straight(found["terms"])
+    start, slope = straight(result["terms"])
     n = np.array([0, max(TERMS)])
     left.plot(n, 1e3 * (start + slope * n), "--", color="0.5", linewidth=1, label="straight line")
-    terms, times = np.array(list(found["terms"].items())).T
+    terms, times = np.array(list(result["terms"].items())).T
     left.plot(terms, 1e3 * times, "o", color=COLOURS[0], label="60 velocities")
     left.set_ylim(bottom=0)
     left.set_xlabel("Prony terms [-]")
@@ -97,8 +97,8 @@ def draw(found: dict[str, dict[int, float]], path: Path) -> bytes:
         ("velocities", "each its own velocity", COLOURS[0]),
         ("grid", "a grid, $\\sqrt{n}$ pressures x $\\sqrt{n}$ velocities", COLOURS[1]),
     ):
-        right.plot(*zip(*found[name].items(), strict=True), "o-", color=colour, label=label)
-    most, longest = max(found["velocities"].items())
+        right.plot(*zip(*result[name].items(), strict=True), "o-", color=colour, label=label)
+    most, longest = max(result["velocities"].items())
     n = np.array([1, most])
     right.plot(n, longest * n / most, "--", color="0.5", linewidth=1, label="slope 1", zorder=0)
     right.set_xlabel("Points $n$ [-]")
@@ -110,9 +110,9 @@ def draw(found: dict[str, dict[int, float]], path: Path) -> bytes:
         ("rings", "20 Prony terms", COLOURS[0]),
         ("rings, master curve", "master curve of 140 rows, 1 % noise", COLOURS[1]),
     ):
-        n, times = np.array(list(found[name].items())).T
+        n, times = np.array(list(result[name].items())).T
         last.plot(n, 1e6 * times / 60, "o-", color=colour, label=label)
-    closed = 1e6 * found["terms"][20] / 60
+    closed = 1e6 * result["terms"][20] / 60
     last.axhline(closed, color="0.5", linestyle="--", linewidth=1, label="closed form, 20 terms")
     last.set_ylim(bottom=0)
     last.set_xlabel("Rings of the scan [-]")
@@ -123,20 +123,20 @@ def draw(found: dict[str, dict[int, float]], path: Path) -> bytes:
 
 
 def make() -> timing.Report:
-    found = measure()
-    rows = [(name, n, t) for name, times in found.items() for n, t in sorted(times.items())]
+    result = measure()
+    rows = [(name, n, t) for name, times in result.items() for n, t in sorted(times.items())]
     columns = dict(zip(("sweep", "count", "time_s"), zip(*rows, strict=True), strict=True))
     text = timing.markdown(
         ["sweep", "count", "time [us]", "of one [us]"],
         [[name, str(n), timing.number(1e6 * t), f"{1e6 * t / n:.3g}"] for name, n, t in rows],
     )
-    start, slope = straight(found["terms"])
+    start, slope = straight(result["terms"])
     text += (
         f"\n60 velocities take {1e6 * start:.0f} us and {1e6 * slope:.2f} us a term; time over the "
-        f"last two decades goes with velocities^{exponent(found['velocities']):.2f} and with the "
-        f"points of a grid^{exponent(found['grid']):.2f}.\n"
+        f"last two decades goes with velocities^{exponent(result['velocities']):.2f} and with the "
+        f"points of a grid^{exponent(result['grid']):.2f}.\n"
     )
-    pictures = {f"scaling{end}": draw(found, Path(f"scaling{end}")) for end in (".png", ".svg")}
+    pictures = {f"scaling{end}": draw(result, Path(f"scaling{end}")) for end in (".png", ".svg")}
     files = {"scaling.csv": timing.table("benchmark scaling", columns), **pictures}
     return timing.Report(f"Scaling:\n\n{text}", files)
 

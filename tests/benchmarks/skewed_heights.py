@@ -109,16 +109,16 @@ def ratios(surface: asperity.HeightMap, band: tuple[int, int]) -> Iterator[tuple
 
 
 def main() -> None:
-    found: dict[str, list[tuple[float, float]]] = defaultdict(list)
+    result: dict[str, list[tuple[float, float]]] = defaultdict(list)
     counts: dict[str, int] = defaultdict(int)
     for points, band, seed in ((256, (4, 32), 11), (256, (4, 32), 12), (512, (2, 64), 13)):
         for surface in maps(points, band, seed):
             name = group(surface.skewness, surface.kurtosis, curvature_kurtosis(surface.heights))
             counts[name] += 1
-            found[name] += ratios(surface, band)
+            result[name] += ratios(surface, band)
     print("| heights | maps | mu | A |\n| --- | --- | --- | --- |")
     for name in GROUPS:
-        of_mu, of_area = np.transpose(found[name])
+        of_mu, of_area = np.transpose(result[name])
         cells = (
             f"{np.exp(np.log(r).mean()):.2f} ({r.min():.2f} to {r.max():.2f})"
             for r in (of_mu, of_area)

@@ -39,13 +39,13 @@ def make() -> timing.Report:
     }
 
     def add(row: Row, points: int) -> float:
-        taken, found = timing.timed(
+        taken, result = timing.timed(
             partial(solve, row, contact_tables.map_of_another_program(row, points))
         )
         values = (row["material"], row["k1"], row["pressure"], row["log10_v_q0"], points, taken)
         for name, value in zip(columns, values, strict=False):
             columns[name].append(value)
-        columns["error"].append(None if found is None else found.error)
+        columns["error"].append(None if result is None else result.error)
         return taken
 
     times = np.array([add(row, 512) for row in [r for r in listed if r["N"] == "512"][::2]])

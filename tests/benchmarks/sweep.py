@@ -66,9 +66,9 @@ def plain(points: int) -> float:
             relaxation_times=rubber["relaxation_times_s"],
         )
         for i in range(0, p.size, step):
-            found = asperity.friction(road, tread, pressure=p[i : i + step, None], velocity=v)
+            result = asperity.friction(road, tread, pressure=p[i : i + step, None], velocity=v)
             for name, array in kept.items():
-                array[k, i : i + step] = getattr(found, name)
+                array[k, i : i + step] = getattr(result, name)
     return time.process_time() - began
 
 
@@ -76,16 +76,16 @@ def overhead(points: int) -> None:
     """Processor time over that of the plain loop, the median of three in turns."""
     asperity.sweep(SCENE, over(30_000))  # what is imported is imported now
     for name in ("memory", "results.zarr"):
-        found = []
+        result = []
         for _ in range(3):
             with tempfile.TemporaryDirectory() as folder:
                 store = None if name == "memory" else Path(folder) / name
                 loop = plain(points)
                 began = time.process_time()
                 asperity.sweep(SCENE, over(points), store=store).close()
-                found.append((time.process_time() - began) / loop)
+                result.append((time.process_time() - began) / loop)
         print(
-            f"{points} points into {name}: {sorted(found)[1]:.3f} of the plain loop's {loop:.2f} s"
+            f"{points} points into {name}: {sorted(result)[1]:.3f} of the plain loop's {loop:.2f} s"
         )
 
 

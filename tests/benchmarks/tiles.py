@@ -86,14 +86,14 @@ def write_large(path: Path) -> None:
 
 def memory() -> list[dict[str, float]]:
     """Peak memory and time of the large map."""
-    found = []
+    result = []
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "large.npy")
         write_large(path)
         for overlap in OVERLAPS:
             seconds, peak = peaks.printed(CHILD, str(path), str(LARGE_TILE), str(overlap))
-            found.append({"overlap": overlap, "seconds": seconds, "peak_gib": peak})
-    return found
+            result.append({"overlap": overlap, "seconds": seconds, "peak_gib": peak})
+    return result
 
 
 def make() -> timing.Report:

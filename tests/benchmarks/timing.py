@@ -29,8 +29,8 @@ def on_one_thread() -> None:
 def timed(call: Call) -> tuple[float, Any]:
     """Seconds of the processor, as whatever else runs is not the call's; and what it gave."""
     start = time.process_time()
-    found = call()
-    return time.process_time() - start, found
+    result = call()
+    return time.process_time() - start, result
 
 
 def seconds(call: Call) -> float:
@@ -43,7 +43,7 @@ def by_turns(calls: Mapping[str, Call], runs: int, patience: float = 0.3) -> dic
     A turn calls twice and counts the second: memory is then as the call itself leaves it.
     """
     times = {name: [seconds(call)] for name, call in calls.items()}
-    quick = [name for name, found in times.items() if found[0] <= patience]
+    quick = [name for name, result in times.items() if result[0] <= patience]
     for name in quick:
         times[name].clear()
     for _ in range(runs):

@@ -30,7 +30,7 @@ def spectra(surface: asperity.HeightMap) -> dict[str, asperity.TabulatedSpectrum
 
 def of_exact(surface: asperity.HeightMap) -> dict[str, np.ndarray]:
     """mu and A by spectrum, over the exact ones; shape (2, contacts)."""
-    found = {name: [] for name in spectra(surface)}
+    result = {name: [] for name in spectra(surface)}
     for name in RUBBERS:
         for pressure in scan_contact.PRESSURES:
             for velocity in VELOCITIES:
@@ -45,8 +45,8 @@ def of_exact(surface: asperity.HeightMap) -> dict[str, np.ndarray]:
                         rtol=1e-3,
                     )
                     row = said.mu / exact.hysteresis, said.contact_area / exact.contact_area
-                    found[kind].append(row)
-    return {kind: np.transpose(rows) for kind, rows in found.items()}
+                    result[kind].append(row)
+    return {kind: np.transpose(rows) for kind, rows in result.items()}
 
 
 def main() -> None:

@@ -50,17 +50,17 @@ def lines(curve: Curve) -> dict[str, dict[str, timing.Call]]:
     points = [30, 100, 300, 1000, 3000, 10000, 30000, 100000]
     nodes = [8, 12, 16, 24, 32, 48, 64, 96, 128]
     panels = [(n, 2, 0.03, 1) for n in ON_RINGS] if curve.measured else PANELS
-    found: dict[str, dict[str, timing.Call]] = {
+    result: dict[str, dict[str, timing.Call]] = {
         "ours": {f"{rtol:.0e}": partial(curve.ours, rtol) for rtol in RTOLS},
         "by parts, fixed nodes": {str(n): partial(by_parts, curve, n) for n in nodes},
         "graded panels": {f"{p[0]} a panel": partial(graded_panels, curve, *p) for p in panels},
         "logarithmic trapezoid": {str(n): partial(log_trapezoid, curve, n) for n in points},
     }
     for name in ("QAG", "QAGS", "CQUAD"):
-        found[f"GSL {name}"] = {
+        result[f"GSL {name}"] = {
             f"{rtol:.0e}": partial(curve.ours, rtol, name.lower()) for rtol in RTOLS[::2]
         }
-    return {name: found[name] for name in STYLES if name in found}
+    return {name: result[name] for name in STYLES if name in result}
 
 
 def measure(curve: Curve) -> Iterator[tuple[str, str, float, float]]:
@@ -80,12 +80,12 @@ def measure(curve: Curve) -> Iterator[tuple[str, str, float, float]]:
     few = curve.of_velocities(slice(3, None, 10))
     for rtol in (1e-2, 1e-5, 1e-9):
         with warnings.catch_warnings(action="ignore"):  # scipy knows where it does not converge
-            elapsed, found = timing.timed(partial(nested_quad, few, rtol))
+            elapsed, result = timing.timed(partial(nested_quad, few, rtol))
         yield (
             "nested quad",
             f"{rtol:.0e}",
-            elapsed * len(curve.truth) / len(found),
-            few.error(found),
+            elapsed * len(curve.truth) / len(result),
+            few.error(result),
         )
         if elapsed > LONGEST:
             break

@@ -18,13 +18,13 @@ def rows(table: Path) -> list[Row]:
         return [*csv.DictReader(line for line in file if line[0] != "#")]
 
 
-def write(table: Path, comment: str, found: Sequence[Row]) -> None:
+def write(table: Path, comment: str, result: Sequence[Row]) -> None:
     """Write a table below its comment."""
     with table.open("w", encoding="ascii", newline="") as file:
         file.write(comment)
-        writer = csv.DictWriter(file, list(found[0]), lineterminator="\n")
+        writer = csv.DictWriter(file, list(result[0]), lineterminator="\n")
         writer.writeheader()
-        writer.writerows(found)
+        writer.writerows(result)
 
 
 def figures(**values: float) -> Row:

@@ -90,7 +90,7 @@ def contacts(name, seeds, hurst, waves, ratios, angles, loads, velocities):
                 for load in loads:
                     for angle in angles if ratio > 1 else (0,):
                         at = {"pressure": load * stiff * law.rms_slope, "velocity": velocity}
-                        found = [
+                        result = [
                             slide(
                                 one,
                                 series(rubber),
@@ -102,7 +102,7 @@ def contacts(name, seeds, hurst, waves, ratios, angles, loads, velocities):
                             for one in maps
                         ]
                         area, mu, lateral = np.transpose(
-                            [(one.contact_area, one.hysteresis, one.lateral) for one in found]
+                            [(one.contact_area, one.hysteresis, one.lateral) for one in result]
                         )
                         scatter = (x.std(ddof=1) / x.mean() / len(x) ** 0.5 for x in (area, mu))
                         means = (area.mean(), mu.mean(), lateral.mean(), *scatter)

@@ -98,7 +98,7 @@ def surface(row: Row) -> asperity.HeightMap:
 
 def solved(row: Row) -> Row:
     """Return the row with what the solver says of its contact."""
-    found = slide(
+    result = slide(
         surface(row),
         rubber(row["rubber"]),
         pressure=float(row["pressure"]),
@@ -107,12 +107,12 @@ def solved(row: Row) -> Row:
         rtol=1e-4,
     )
     return row | contact_tables.figures(
-        A=found.contact_area,
-        A_raw=found.contact_area_raw,
-        mu=found.hysteresis,
-        work=found.work_of_slopes,
-        energy=found.elastic_energy,
-        error=found.error,
+        A=result.contact_area,
+        A_raw=result.contact_area_raw,
+        mu=result.hysteresis,
+        work=result.work_of_slopes,
+        energy=result.elastic_energy,
+        error=result.error,
     )
 
 

@@ -83,7 +83,7 @@ def spectrum(row: Row) -> asperity.TabulatedSpectrum:
 
 def solved(row: Row) -> Row:
     """Return the row with what the solver says of its contact."""
-    found = slide(
+    result = slide(
         surface(row),
         make_exact_sliding.rubber(row["rubber"]),
         pressure=float(row["pressure"]),
@@ -92,10 +92,10 @@ def solved(row: Row) -> Row:
         rtol=1e-3,
     )
     return row | contact_tables.figures(
-        A=found.contact_area,
-        A_raw=found.contact_area_raw,
-        mu=found.hysteresis,
-        work=found.work_of_slopes,
+        A=result.contact_area,
+        A_raw=result.contact_area_raw,
+        mu=result.hysteresis,
+        work=result.work_of_slopes,
     )
 
 

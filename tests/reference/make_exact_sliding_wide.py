@@ -167,12 +167,12 @@ def solved(row):
         ((area, mu),) = nested(row, edges, [load], map=map)
         figures |= {"A_nested": area, "mu_nested": mu}
     if map:
-        found = pressed(map, row, load, velocity)
+        result = pressed(map, row, load, velocity)
         figures |= {
-            "A": found.contact_area,
-            "A_raw": found.contact_area_raw,
-            "mu": found.hysteresis,
-            "work": found.work_of_slopes,
+            "A": result.contact_area,
+            "A_raw": result.contact_area_raw,
+            "mu": result.hysteresis,
+            "work": result.work_of_slopes,
         }
     return row | contact_tables.figures(**figures)
 

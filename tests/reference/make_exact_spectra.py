@@ -60,20 +60,20 @@ def solved(row):
     """Return the contact of a row of exact_sliding.csv."""
     map, rubber = make_exact_sliding.surface(row), make_exact_sliding.rubber(row["rubber"])
     load, velocity, points = float(row["pressure"]), float(row["velocity"]), int(row["points"])
-    found = slide(map, rubber, pressure=load, velocity=velocity, periodic=True, rtol=1e-4)
+    result = slide(map, rubber, pressure=load, velocity=velocity, periodic=True, rtol=1e-4)
     inverse, band_loss = compliance(rubber, velocity, points)
     kx, ky = np.arange(points // 2 + 1), np.fft.fftfreq(points, 1 / points)[:, None]
     k = np.hypot(kx, ky)
     many = np.where((k > 0) & (kx > 0) & (kx < points // 2), 2.0, 1.0)  # with its mirror image
     many[0, 0] = 0  # the mean is not a wave
     factor = (1 - NU**2) / (np.pi * np.where(k > 0, k, 1))
-    stress = many * np.abs(np.fft.rfft2(found.pressure) / points**2 / load) ** 2
+    stress = many * np.abs(np.fft.rfft2(result.pressure) / points**2 / load) ** 2
     height = np.abs(np.fft.rfft2(map.heights) / points**2) ** 2
     complete = many * height / (factor * np.abs(inverse) * load) ** 2
     of_loss = load * factor * 2 * np.pi * kx * inverse.imag
     of_loss[:, 0] = load * factor[:, 0] * band_loss
     of_loss[:, -1] = 0
-    if abs((of_loss * stress).sum() - found.hysteresis) > 1e-9 * found.hysteresis:
+    if abs((of_loss * stress).sum() - result.hysteresis) > 1e-9 * result.hysteresis:
         raise AssertionError(("the waves do not dissipate mu", row["case"]))
     edges = rings(float(row["k0"]), float(row["k1"]), points / 2)
 
@@ -87,7 +87,7 @@ def solved(row):
     sums["even"] *= sums["stress"] / np.where(rough, sums["complete"], np.inf)
     return (
         {"case": row["case"]}
-        | contact_tables.figures(A=found.contact_area, mu=found.hysteresis)
+        | contact_tables.figures(A=result.contact_area, mu=result.hysteresis)
         | {
             name: ";".join(f"{x:.5g}" for x in values)
             for name, values in ({"edges": edges} | sums).items()
@@ -113,8 +113,8 @@ def main():
                 new, known = solved(row), old[row["case"]]
                 apart = {}
                 for name in LISTS[1:]:
-                    found = np.array([float(x) for x in new[name].split(";")])
-                    apart[name] = np.abs(found - known[name]).max() / (
+                    result = np.array([float(x) for x in new[name].split(";")])
+                    apart[name] = np.abs(result - known[name]).max() / (
                         np.abs(known[name]).max() or 1
                     )
                 print(row["case"], {name: f"{value:.1e}" for name, value in apart.items()})

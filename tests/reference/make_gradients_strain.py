@@ -26,11 +26,11 @@ def friction(scene):
     """Return mu_H by name of the correction."""
     integrals = prony(scene["rubber"])[0]
     q, c = rows_of(scene["surface"])
-    found = solved(
+    result = solved(
         {**scene, "table": None}, integrals, closed_moment(q, c), closed_end(q, c), 20,
         (1e-12, 1.5, 0.5), tail_in_logarithm, by_kappa,
     )  # fmt: skip
-    return {name: found[f"hysteresis{end}"] for name, end in CORRECTIONS.items()}
+    return {name: result[f"hysteresis{end}"] for name, end in CORRECTIONS.items()}
 
 
 def all_numbers(scene):

@@ -244,7 +244,7 @@ def row(case, changes):
     scene = USUAL | changes
     q, c = rows_of(scene["surface"])
     ends = closed_end(q, c), summed_end(q, c)
-    found = (
+    result = (
         solve(
             scene,
             closed_moment(q, c),
@@ -270,11 +270,11 @@ def row(case, changes):
             True,
         ),
     )
-    for one, two in zip(*found, strict=True):
+    for one, two in zip(*result, strict=True):
         tables.agree("hot_partial_contact", one, two, 1e-11)
     print(
         f"{case:28s}",
-        *(f"{x:.10g}" for x in found[0]),
+        *(f"{x:.10g}" for x in result[0]),
         f"{np.exp(ends[0]) / q[-1]:.3g}",
         flush=True,
     )
@@ -290,7 +290,7 @@ def row(case, changes):
         **dict(
             zip(
                 ("hysteresis", "contact_area", "macro_area", "rise_at_end", "rise"),
-                (float(x) for x in found[0]),
+                (float(x) for x in result[0]),
                 strict=True,
             )
         ),

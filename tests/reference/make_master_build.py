@@ -49,8 +49,8 @@ def wlf(temperature, y, reference):
         maxfev=100000,
     )
     c1, c2 = mp.findroot(gradient, tuple(map(mp.mpf, start)), tol=1e-60)
-    for found, expected in zip((c1, c2), start, strict=True):
-        tables.agree("scipy", found, mp.mpf(float(expected)), 1e-4)
+    for result, expected in zip((c1, c2), start, strict=True):
+        tables.agree("scipy", result, mp.mpf(float(expected)), 1e-4)
     again = mp.findroot(
         lambda c: of_c2(c)[1], (c2 * mp.mpf("0.999"), c2 * mp.mpf("1.002")), solver="anderson"
     )

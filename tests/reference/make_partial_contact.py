@@ -217,7 +217,7 @@ def row(case, changes):
     moments, summed = closed_moment(q, c), summed_moment(q, c)
     ends = closed_end(q, c), summed_end(q, c)
     tables.agree("partial_contact", *ends, 1e-13)
-    found = []
+    result = []
     for nodes, tail, root in (
         (
             band(scene, first, moments, ends[0], gauss(20), 1e-12, 1.5, 0.5),
@@ -233,10 +233,10 @@ def row(case, changes):
         kappa = root(nodes, tail)
         share = erf(0.5 / np.sqrt(kappa * nodes[4]))
         friction = sums(kappa, nodes, tail)[1] * 4 * (1 - scene["poisson_ratio"] ** 2)
-        found.append((nodes[4], kappa, share, friction * scene["pressure"]))
-    for one, two in zip(*found, strict=True):
+        result.append((nodes[4], kappa, share, friction * scene["pressure"]))
+    for one, two in zip(*result, strict=True):
         tables.agree("partial_contact", one, two, 1e-12)
-    print(f"{case:28s}", " ".join(f"{x:.10g}" for x in found[0]), flush=True)
+    print(f"{case:28s}", " ".join(f"{x:.10g}" for x in result[0]), flush=True)
     surface = scene["surface"] if isinstance(scene["surface"], dict) else dict.fromkeys(ROAD)
     rough = (None, None) if isinstance(scene["surface"], dict) else scene["surface"]
     return {
@@ -255,7 +255,7 @@ def row(case, changes):
         **dict(
             zip(
                 ("g", "kappa", "contact_area", "hysteresis"),
-                (float(x) for x in found[0]),
+                (float(x) for x in result[0]),
                 strict=True,
             )
         ),

@@ -82,10 +82,10 @@ def by_sets(matrix, h, load):
         system[:m, :m] = held[np.ix_(touching, touching)]
         system[:m, m], system[m, :m] = -1, 1
         right = h + weight * (symmetric @ p)
-        found = np.linalg.solve(system, np.append(right[touching], load * n))
+        result = np.linalg.solve(system, np.append(right[touching], load * n))
         trial = np.zeros(n)
-        trial[touching] = found[:m]
-        gap = held @ trial - right - found[m]
+        trial[touching] = result[:m]
+        gap = held @ trial - right - result[m]
         scale = np.abs(h).max()
         if weight == 0 and trial.min() >= 0 and gap.min() > -1e-11 * scale:
             return trial, gap

@@ -116,10 +116,10 @@ def main():
         row("nanoscale", 1e-9, 0.8, 1e6, 1e10, None, 1e8),
     ]
     for answer, slope, ratio in ((rows[0], 2.76, 11.7), (rows[1], 1.49, 320)):
-        found = answer["slope_cutoff"] / answer["q0"]
-        print(f"{answer['case']}: slope {float(answer['rms_slope']):.4f}, cut {float(found):.2f}")
+        result = answer["slope_cutoff"] / answer["q0"]
+        print(f"{answer['case']}: slope {float(answer['rms_slope']):.4f}, cut {float(result):.2f}")
         assert abs(answer["rms_slope"] - slope) < 0.005
-        assert abs(found / ratio - 1) < 0.005
+        assert abs(result / ratio - 1) < 0.005
     comments = [
         "Self-affine spectrum, rms height exact on its band: THEORY.md section 1 (article Eq. 12).",
         "slope_cutoff: q at which the cumulative rms slope reaches 1.3, q1 if never.",

@@ -97,8 +97,8 @@ def main() -> int:
     wrong = False
     for kind in arguments.kinds or KINDS:
         trial = KINDS[kind]
-        found = [trial(arguments.seed, k, arguments.samples) for k in range(arguments.trials)]
-        held, width, moved = (np.array(column) for column in zip(*found, strict=True))
+        result = [trial(arguments.seed, k, arguments.samples) for k in range(arguments.trials)]
+        held, width, moved = (np.array(column) for column in zip(*result, strict=True))
         share = 100 * held.mean(axis=0)
         wrong |= bool(((share < 90) | (share > 98)).any())
         print(

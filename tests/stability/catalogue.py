@@ -40,16 +40,16 @@ def show(error: float | str) -> str:
     return error if isinstance(error, str) else f"{error:.1e}"
 
 
-def cells(row: Row, found: Outcome) -> list[str]:
-    ours = show(found.ours)
-    if isinstance(found.ours, float):
+def cells(row: Row, result: Outcome) -> list[str]:
+    ours = show(result.ours)
+    if isinstance(result.ours, float):
         ours = f"{ours} (at most {row.allowed:.0e})"
-    return [row.regime, row.reason, row.naive, show(found.naive), ours, row.truth]
+    return [row.regime, row.reason, row.naive, show(result.naive), ours, row.truth]
 
 
 def table(outcomes: list[Outcome]) -> str:
     lines = [COLUMNS, ["---"] * len(COLUMNS)]
-    lines += [cells(row, found) for row, found in zip(ROWS, outcomes, strict=True)]
+    lines += [cells(row, result) for row, result in zip(ROWS, outcomes, strict=True)]
     return "".join("| " + " | ".join(line) + " |\n" for line in lines)
 
 
@@ -62,8 +62,8 @@ def main() -> int:
     print(text, end="")
     bad = [
         row.regime
-        for row, found in zip(ROWS, outcomes, strict=True)
-        if not (found.holds(row) and found.naive_fails(row))
+        for row, result in zip(ROWS, outcomes, strict=True)
+        if not (result.holds(row) and result.naive_fails(row))
     ]
     for regime in bad:
         print(f"does not hold, or shows nothing: {regime}", file=sys.stderr)

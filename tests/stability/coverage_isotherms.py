@@ -89,8 +89,8 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--samples", type=int, default=100)
     arguments = parser.parse_args()
-    found = [trial(arguments.seed, k, arguments.samples) for k in range(arguments.trials)]
-    held, width, moved = (np.array(column) for column in zip(*found, strict=True))
+    result = [trial(arguments.seed, k, arguments.samples) for k in range(arguments.trials)]
+    held, width, moved = (np.array(column) for column in zip(*result, strict=True))
     for k, v in enumerate(SCENE["velocity"]):
         print(
             f"{v:.3g} m/s: {100 * held[:, k].mean():.1f} % of {len(held)} bands hold the true mu, "

@@ -97,14 +97,14 @@ def main() -> int:
     wrong = False
     for generator in arguments.generators or GENERATORS:
         for periods in PERIODS:
-            found: dict[str, list[Any]] = {window: [] for window in WINDOWS}
+            result: dict[str, list[Any]] = {window: [] for window in WINDOWS}
             for hurst, scan in scans(
                 generator, periods, arguments.points, arguments.crops, arguments.seed
             ):
                 for window in WINDOWS:
-                    found[window].append((hurst, *fitted(scan, window)))
+                    result[window].append((hurst, *fitted(scan, window)))
             for window in WINDOWS:
-                truth, hurst, error, rolled = np.array(found[window]).T
+                truth, hurst, error, rolled = np.array(result[window]).T
                 known = np.isfinite(hurst)
                 off = (hurst - truth)[known]
                 share = float(np.mean(np.abs(off) < 1.96 * error[known]))

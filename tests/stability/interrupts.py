@@ -68,8 +68,8 @@ def measured(function: Callable[..., object]) -> Callable[[], object]:
 
 def band() -> Callable[[], object]:
     heights = asperity.synthesize(ROAD, shape=(256, 256), pixel_size=1e-5, seed=1)
-    found = asperity.power_spectrum(heights)
-    spectrum = found.truncated(q1=found.q1 / 3)
+    result = asperity.power_spectrum(heights)
+    spectrum = result.truncated(q1=result.q1 / 3)
     velocity = np.geomspace(1e-3, 1, 50)
     return lambda: asperity.friction_band(
         spectrum, RUBBER, pressure=1e5, velocity=velocity, samples=100_000, seed=1

@@ -45,8 +45,8 @@ def main() -> int:
     print("| --- | --- | --- | --- | --- | --- |")
     for kind in arguments.kinds or band_coverage.KINDS:
         trial = band_coverage.KINDS[kind]
-        found = [trial(arguments.seed, k, arguments.samples) for k in range(arguments.trials)]
-        held, width, seconds, noted = (np.array(column) for column in zip(*found, strict=True))
+        result = [trial(arguments.seed, k, arguments.samples) for k in range(arguments.trials)]
+        held, width, seconds, noted = (np.array(column) for column in zip(*result, strict=True))
         of_draws, of_slopes = 100 * held.mean(axis=(0, 2))
         low, middle, high = np.quantile(width[:, 1] / width[:, 0], [0.05, 0.5, 0.95])
         print(

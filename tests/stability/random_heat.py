@@ -148,13 +148,13 @@ def compute(seed: int, scene: int, *, rings: float = 0.0, curves: float = 0.0) -
     outcome.branches = int(truth.branches.max())
     for rtol in rtols:
         try:
-            found = asperity.friction(road, compound, **at, rtol=rtol)
+            result = asperity.friction(road, compound, **at, rtol=rtol)
         except asperity.NotConverged:
             outcome.refused.append(rtol)
             continue
-        stated = found.error_estimate + truth.error_estimate
+        stated = result.error_estimate + truth.error_estimate
         outcome.ratios[rtol] = float(
-            np.max(np.abs(found.mu - truth.mu) / np.maximum(stated, 1e-300))
+            np.max(np.abs(result.mu - truth.mu) / np.maximum(stated, 1e-300))
         )
     return outcome
 

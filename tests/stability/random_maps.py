@@ -76,14 +76,14 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--tables", type=float, default=0.2)
     asked = parser.parse_args()
-    found: Counter[str] = Counter()
+    result: Counter[str] = Counter()
     for number in range(asked.maps):
         outcome = compute(asked.seed, number, asked.points, asked.tables)
-        found[outcome.split(":")[0]] += 1
+        result[outcome.split(":")[0]] += 1
         if outcome != "kept":
             print(f"scene {number}: {outcome}", flush=True)
-    print(", ".join(f"{count} {what}" for what, count in sorted(found.items())))
-    return 1 if found["FAILED"] else 0
+    print(", ".join(f"{count} {what}" for what, count in sorted(result.items())))
+    return 1 if result["FAILED"] else 0
 
 
 if __name__ == "__main__":

@@ -291,7 +291,7 @@ def compute(
             if method == "cquad":
                 raise NoTruth(str(error)) from error
             continue
-        worse = max((ours.contact_area, area), key=lambda found: abs(found - truth.contact_area))
+        worse = max((ours.contact_area, area), key=lambda result: abs(result - truth.contact_area))
         outcome = Outcome(
             ours.mu,
             truth.mu,

@@ -28,8 +28,8 @@ def pressure_at(t: float) -> float:
 
 def ours(load: float, **options: Any) -> float:
     """d~ in rms heights."""
-    found = asperity.separation(pressure=load, effective_modulus=1.0, **MACRO, **options)
-    return float(found.effective / MACRO["rms_height"])
+    result = asperity.separation(pressure=load, effective_modulus=1.0, **MACRO, **options)
+    return float(result.effective / MACRO["rms_height"])
 
 
 def separation(t: float) -> Case:

@@ -29,7 +29,7 @@ def lines(name: str) -> list[str]:
 
 def of_table(name: str, case: str) -> dict[str, str]:
     rows = csv.DictReader(line for line in lines(name) if line[0] != "#")
-    return next(found for found in rows if found["case"] == case)
+    return next(result for result in rows if result["case"] == case)
 
 
 def compound() -> asperity.PronySeries:
@@ -43,11 +43,11 @@ class Scene:
     """A row of flash.csv, ours, and a pass of its fixed point by 240 Gauss-Legendre nodes."""
 
     def __init__(self, case: str) -> None:
-        found = of_table("flash", case)
+        result = of_table("flash", case)
         columns = ("pressure", "velocity", "temperature", "mu_h", "rise_q1")
-        numbers = [float(found[name]) for name in columns]
+        numbers = [float(result[name]) for name in columns]
         self.pressure, self.velocity, self.temperature, self.mu, self.rise = numbers
-        self.road = ASPHALT.truncated(q1=float(found["q1"]))
+        self.road = ASPHALT.truncated(q1=float(result["q1"]))
         self.rubber = compound()
         nodes, weights = np.polynomial.legendre.leggauss(240)
         length = math.log(self.road.q1 / self.road.q0)
@@ -176,10 +176,10 @@ def states() -> Iterator[Case]:
 )
 def deep_kernel() -> Iterator[Case]:
     for case in ("disc 0.001 1e+06 30000", "box 0.001 1e+06 30000"):
-        found = of_table("heat_kernel", case)
-        residence: Any = found["residence"]
+        result = of_table("heat_kernel", case)
+        residence: Any = result["residence"]
         q, q_prime, v, diameter, d = (
-            float(found[name])
+            float(result[name])
             for name in ("q", "q_prime", "velocity", "contact_diameter", "diffusivity")
         )
         heating = asperity.Heating(
@@ -206,7 +206,7 @@ def deep_kernel() -> Iterator[Case]:
             lambda q=q, p=q_prime, v=v, h=heating: asperity.heat_kernel(
                 q, p, velocity=v, heating=h
             ),
-            float(found["g"]),
+            float(result["g"]),
         )
 
 
@@ -231,7 +231,7 @@ def burning() -> Iterator[Case]:
         return float(scene.step(np.zeros_like(scene.q))[1][-1])
 
     def ours() -> float:
-        found = asperity.friction(
+        result = asperity.friction(
             scene.road,
             scene.rubber,
             pressure=5e6,
@@ -240,6 +240,6 @@ def burning() -> Iterator[Case]:
             shift=LAW,
             heating=burning,
         )
-        return float(found.temperature)
+        return float(result.temperature)
 
     yield naive, ours, asperity.OutOfRange

@@ -67,8 +67,8 @@ def kinks() -> Iterator[Case]:
     lowest = rows["angular_frequency"][0]
 
     def modulus(w: Any) -> Any:
-        found = made.modulus(np.maximum(w, lowest))
-        return found.real + 1j * found.imag * np.minimum(w / lowest, 1)
+        result = made.modulus(np.maximum(w, lowest))
+        return result.real + 1j * result.imag * np.minimum(w / lowest, 1)
 
     for at in (3e2, 1e5, 0.9e8):
         for i in (0, 1):
@@ -91,8 +91,8 @@ def kinks_friction() -> Iterator[Case]:
     definition, velocity, pressure = Definition(*rows.values()), 1e-2, 3e1
 
     def integrals(w: Any) -> Any:
-        found = np.array([definition(float(x))[:2] for x in np.ravel(w)])
-        return found[:, 0].reshape(np.shape(w)), found[:, 1].reshape(np.shape(w))
+        result = np.array([definition(float(x))[:2] for x in np.ravel(w)])
+        return result[:, 0].reshape(np.shape(w)), result[:, 1].reshape(np.shape(w))
 
     knots = rows["angular_frequency"] / velocity
     edges = [ROAD["q0"], *knots[(knots > ROAD["q0"]) & (knots < ROAD["q1"])], ROAD["q1"]]

@@ -74,11 +74,11 @@ def against_slide(
         at = {"pressure": pressure, "velocity": velocity}
         truth = slide(scan, rubber, **at, periodic=True, rtol=1e-9)
 
-        def found(correction: Any, at: Any = at) -> float:
+        def result(correction: Any, at: Any = at) -> float:
             return float(getattr(friction(scan, rubber, correction, **at), name))
 
-        usual = partial(found, asperity.PartialContact())
-        yield usual, partial(found, exact), getattr(truth, name)
+        usual = partial(result, asperity.PartialContact())
+        yield usual, partial(result, exact), getattr(truth, name)
 
 
 @row(
@@ -142,10 +142,10 @@ def full_contact() -> Iterator[Case]:
         mu = float((power * loss).sum() / pressure)
         at = {"pressure": pressure, "velocity": velocity}
 
-        def found(correction: Any, at: Any = at) -> float:
+        def result(correction: Any, at: Any = at) -> float:
             return float(friction(scan, rubber, correction, **at).hysteresis)
 
-        yield partial(found, asperity.PartialContact()), partial(found, exact), mu
+        yield partial(result, asperity.PartialContact()), partial(result, exact), mu
 
 
 @row(

@@ -58,19 +58,19 @@ class Contact:
 
 def solved(name: str) -> Contact:
     with TABLE.open(encoding="utf-8") as file:
-        found = {r["case"]: r for r in csv.DictReader(x for x in file if x[0] != "#")}[name]
-    n, length = int(float(found["points"])), float(found["length"])
+        result = {r["case"]: r for r in csv.DictReader(x for x in file if x[0] != "#")}[name]
+    n, length = int(float(result["points"])), float(result["length"])
     y, x = np.meshgrid(np.arange(n), np.arange(n), indexing="ij")
     columns = ("kx", "ky", "amplitude", "phase")
-    waves = np.array([[float(w) for w in found[c].split(";")] for c in columns]).T
+    waves = np.array([[float(w) for w in result[c].split(";")] for c in columns]).T
     angles = [2 * np.pi * (i * x + j * y) / n + phase for i, j, _, phase in waves]
     rubber = asperity.PronySeries(
-        equilibrium_modulus=float(found["equilibrium_modulus"]),
-        moduli=[float(m) for m in found["moduli"].split(";")],
-        relaxation_times=[float(t) for t in found["relaxation_times"].split(";")],
+        equilibrium_modulus=float(result["equilibrium_modulus"]),
+        moduli=[float(m) for m in result["moduli"].split(";")],
+        relaxation_times=[float(t) for t in result["relaxation_times"].split(";")],
     )
-    options = [float(found[c]) for c in ("poisson_ratio", "pressure", "velocity")]
-    results = float(found["hysteresis"]), float(found["contact_area"])
+    options = [float(result[c]) for c in ("poisson_ratio", "pressure", "velocity")]
+    results = float(result["hysteresis"]), float(result["contact_area"])
     heights = sum(w[2] * np.cos(a) for w, a in zip(waves, angles, strict=True))
     return Contact(heights, length, rubber, *options, *results)
 
@@ -91,10 +91,10 @@ def on_sets(matrix: Any, heights: Any, pressure: float, start: Any) -> Any:
         system = np.zeros((m + 1, m + 1))
         system[:m, :m] = matrix[np.ix_(touching, touching)]
         system[:m, m], system[m, :m] = -1, 1
-        found = np.linalg.solve(system, np.append(heights[touching], pressure * n))
+        result = np.linalg.solve(system, np.append(heights[touching], pressure * n))
         p = np.zeros(n)
-        p[touching] = found[:m]
-        new = np.where(touching, p > 0, matrix @ p - heights < found[m])
+        p[touching] = result[:m]
+        new = np.where(touching, p > 0, matrix @ p - heights < result[m])
         if (new == touching).all():
             break
         touching = new

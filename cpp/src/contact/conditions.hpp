@@ -79,7 +79,7 @@ inline void refuse_directions(const Spectrum& spectrum, const char* what) {
 }
 
 /// Whether products of a number keep all their digits.
-inline bool tellable(double value) { return value >= 1e-280 && value <= 1e280; }
+inline bool is_representable(double value) { return value >= 1e-280 && value <= 1e280; }
 
 /// Refuses a G at the end of the spectrum that a double cannot hold, by the pressure it comes from.
 inline void check_g(double g, double pressure) {

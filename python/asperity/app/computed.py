@@ -26,7 +26,7 @@ def with_band(
 
 def contributions(scene: Scene, velocity: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Wavenumbers [1/m], and dmu / d ln q there, at the first pressure and one velocity [m/s]."""
-    found = friction(
+    result = friction(
         scene.spectrum,
         rubber_of_map(scene),
         pressure=scene.pressure[0],
@@ -37,9 +37,9 @@ def contributions(scene: Scene, velocity: float) -> tuple[NDArray[np.float64], N
         **scene.options,
         **({} if scene.heating is None else _heat(scene)),
     )
-    assert found.wavenumber is not None
-    assert found.dmu_dlnq is not None
-    return found.wavenumber, found.dmu_dlnq
+    assert result.wavenumber is not None
+    assert result.dmu_dlnq is not None
+    return result.wavenumber, result.dmu_dlnq
 
 
 def _heat(scene: Scene) -> dict[str, Any]:

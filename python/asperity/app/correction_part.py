@@ -46,8 +46,8 @@ class CorrectionFields:
     async def _chosen(self, event: Any) -> None:
         if event.value == self._kind:
             return
-        found = self._worker.found
-        self._state.choose_correction(event.value, None if found is None else found.scene)
+        result = self._worker.found
+        self._state.choose_correction(event.value, None if result is None else result.scene)
         self._ask()
         await self._worker.changed()
 

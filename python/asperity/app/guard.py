@@ -64,10 +64,10 @@ class Guard:
 
     def _in_cookie(self, headers: dict[str, str]) -> str:
         try:
-            found = SimpleCookie(headers.get("cookie", "")).get(self._cookie)
+            result = SimpleCookie(headers.get("cookie", "")).get(self._cookie)
         except CookieError:
             return ""
-        return "" if found is None else found.value
+        return "" if result is None else result.value
 
     def _with_headers(self, send: Send, *, cookie: bool) -> Send:
         added = dict(_HEADERS)

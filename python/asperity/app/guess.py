@@ -56,9 +56,9 @@ def guess_columns(path: Path) -> Guess:
     columns: dict[str, str] = {}
     for quantity, pattern in _NAMED.items():
         left = [name for name in names if name not in columns.values()]
-        found = next((n for n in left if re.search(pattern, n, re.IGNORECASE)), None)
-        if found is not None:
-            columns[quantity] = found
+        result = next((n for n in left if re.search(pattern, n, re.IGNORECASE)), None)
+        if result is not None:
+            columns[quantity] = result
     below = dict(zip(header.names, header.units, strict=False))
     units = {
         kind: _unit(kind, [f"{columns[q]} {below.get(columns[q], '')}" for q in of if q in columns])
@@ -105,10 +105,10 @@ def _by_size(kind: str, numbers: Sequence[float]) -> str:
 
 
 def _numbers(rows: Sequence[Sequence[str]], place: int) -> list[float]:
-    found = []
+    result = []
     for row in rows:
         try:
-            found.append(float(row[place].replace(",", ".")))
+            result.append(float(row[place].replace(",", ".")))
         except (ValueError, IndexError):
             continue
-    return found
+    return result

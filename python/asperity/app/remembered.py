@@ -30,9 +30,9 @@ class Remembered:
             for old in list(self._kept)[: 1 - _MOST]:  # all but the newest
                 self._kept.pop(old, None)  # unless another thread did
             self._kept[key] = kept
-        found, notes = kept
+        result, notes = kept
         plausible.tell_again(notes)
-        return found
+        return result
 
 
 class RememberedCorrection:

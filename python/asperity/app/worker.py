@@ -19,13 +19,13 @@ _QUIET = 0.05  # s without a change, after which all that is slower follows
 class Shows:
     """A part of the page that shows what was computed, or some of it."""
 
-    def show_curve(self, found: "Found") -> None:
+    def show_curve(self, result: "Found") -> None:
         """The curve alone, at once."""
 
     def show_scene(self, scene: Scene) -> None:
         """What was read, whether a curve follows from it or not."""
 
-    def show(self, found: "Found") -> None:
+    def show(self, result: "Found") -> None:
         """All that is known by now."""
 
     def fail(self, error: Error) -> None:
@@ -113,34 +113,34 @@ class Worker:
         self._following.add(following)  # else it might be collected while it runs
         following.add_done_callback(self._following.discard)
 
-    async def _follow(self, mine: int, found: Found) -> None:
+    async def _follow(self, mine: int, result: Found) -> None:
         """What takes longer, and the parts of the page that are not the curve."""
         await asyncio.sleep(_QUIET)
         progress = self._unless_overtaken(mine)
         async with self._slow:  # what was overtaken ends within a chunk
             try:
-                self._show(mine, found)
-                if found.curves is None:
-                    hot = await in_thread(lambda: found.scene.friction(progress))
-                    found = replace(found, curves=hot)
-                    self._show(mine, found)
-                if not found.whole:
-                    scene, curves = found.scene, found.best
+                self._show(mine, result)
+                if result.curves is None:
+                    hot = await in_thread(lambda: result.scene.friction(progress))
+                    result = replace(result, curves=hot)
+                    self._show(mine, result)
+                if not result.whole:
+                    scene, curves = result.scene, result.best
                     banded = await in_thread(lambda: with_band(scene, curves, progress))
-                    self._show(mine, replace(found, banded=banded))
+                    self._show(mine, replace(result, banded=banded))
             except _OvertakenError:
                 return
             except Error as error:
                 if self._wanted == mine:
                     self._fail(error)
 
-    def _show(self, mine: int, found: Found) -> None:
+    def _show(self, mine: int, result: Found) -> None:
         if self._wanted != mine:
             raise _OvertakenError
-        self.found = found
-        self._show_scene(found.scene)
+        self.found = result
+        self._show_scene(result.scene)
         for part in self._parts:
-            part.show(found)
+            part.show(result)
 
     def _show_scene(self, scene: Scene) -> None:
         for part in self._parts:

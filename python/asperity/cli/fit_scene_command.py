@@ -68,10 +68,10 @@ def _found(fit: SceneFit) -> dict[str, Any]:
 
 
 def _lines(fit: SceneFit) -> dict[str, float | None]:
-    found: dict[str, float | None] = {}
+    result: dict[str, float | None] = {}
     for key in fit.free:
-        found |= {key: fit.value[key], f"{key}_low": fit.lower[key], f"{key}_high": fit.upper[key]}
-    return found
+        result |= {key: fit.value[key], f"{key}_low": fit.lower[key], f"{key}_high": fit.upper[key]}
+    return result
 
 
 def _cells(column: Any) -> list[Any]:

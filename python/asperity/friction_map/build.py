@@ -196,15 +196,15 @@ def _law(
     return temperature_shift_core(law), sides
 
 
-def _temperatures(found: Any) -> list[float]:
-    sides = real_array(found, "temperature")
+def _temperatures(result: Any) -> list[float]:
+    sides = real_array(result, "temperature")
     if sides.shape not in {(), (1,), (2,)}:
-        raise refusal("temperature", found, "a number or (lo, hi)")
+        raise refusal("temperature", result, "a number or (lo, hi)")
     return [float(sides.flat[0]), float(sides.flat[-1])]
 
 
-def _sides(found: Any, name: str) -> list[float]:
-    sides = real_array(found, name)
+def _sides(result: Any, name: str) -> list[float]:
+    sides = real_array(result, name)
     if sides.shape != (2,):
-        raise refusal(name, found, "(lo, hi)")
+        raise refusal(name, result, "(lo, hi)")
     return [float(side) for side in sides]

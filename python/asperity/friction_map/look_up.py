@@ -349,29 +349,29 @@ class FrictionMap(Table):
         ordered = [columns.get(key) for key in given]
         options = shifts, _CLAMP if policy == 2 else _NAN
         if name == "sliding_length":
-            found, first = self._core.sliding_length(ordered[1], ordered[3], options[1])
+            result, first = self._core.sliding_length(ordered[1], ordered[3], options[1])
         else:
-            found, first = getattr(self._core, name)(*ordered, *options)
-        if policy != 1 and first < found.shape[-1]:
+            result, first = getattr(self._core, name)(*ordered, *options)
+        if policy != 1 and first < result.shape[-1]:
             point = {
                 key: column[first if np.size(column) > 1 else 0].item()
                 for key, column in ((key, np.atleast_1d(one)) for key, one in columns.items())
             }
             self._refuse(point, options, f"[{first}]" if shape else "")
         if not shape:
-            return found[..., 0].item() if found.ndim == 1 else found[:, 0].tolist()
-        return found.reshape(*found.shape[:-1], *shape)
+            return result[..., 0].item() if result.ndim == 1 else result[:, 0].tolist()
+        return result.reshape(*result.shape[:-1], *shape)
 
     def _check(self, asked: dict[str, Any], shifts: bool) -> None:
         """Refuse what this map has not, wherever the points are."""
         if self.temperature is None:
             if "temperature" in asked:
-                found = brief(asked["temperature"])
+                result = brief(asked["temperature"])
                 raise refusal(
                     "temperature",
-                    found,
+                    result,
                     "left out, this map has no heat; give a_T",
-                    text=f"{found}",
+                    text=f"{result}",
                 )
             return
         if shifts:
@@ -406,8 +406,8 @@ class FrictionMap(Table):
             value = valued(point[name], f"{point[name]:.12g}")
             box = f": {rule} [{lo:.12g}, {hi:.12g}] {unit}"
             raise OutOfRange(Argument(name), f"{index} = ", value, box, code="outside-map")
-        for name, found in point.items():
-            if name != "a_T" and np.isnan(found):
+        for name, result in point.items():
+            if name != "a_T" and np.isnan(result):
                 raise InvalidInput(
                     Argument(name), f"{index} = ", valued(np.nan), MUST_BE, "a number"
                 )

@@ -59,8 +59,8 @@ def measured_friction(measured: Any) -> tuple[MeasuredFriction, Path]:
     shape = given["mu"].shape
     for name, column in given.items():
         if column.ndim > 1 or column.shape not in ((), shape):
-            found = f" has shape {column.shape}"
-            raise InvalidInput(Argument(f"measured: {name}"), found, MUST_BE, f"{shape}, as mu")
+            result = f" has shape {column.shape}"
+            raise InvalidInput(Argument(f"measured: {name}"), result, MUST_BE, f"{shape}, as mu")
         if not ((column > 0) & (column < math.inf)).all():
             raise InvalidInput(Argument(f"measured: {name}"), MUST_BE, "positive and finite")
     flat = {name: np.array(np.broadcast_to(one, shape)).ravel() for name, one in given.items()}

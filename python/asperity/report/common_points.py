@@ -49,8 +49,8 @@ def _common(a: Array, b: Array) -> Array | None:
         return None
     both = both[np.append(True, np.diff(both) > _SAME * both[1:])]
     kept = np.linspace(0, both.size - 1, min(MOST, both.size)).round().astype(int)
-    found: Array = both[kept]
-    return found
+    result: Array = both[kept]
+    return result
 
 
 def _same(a: Array, b: Array) -> bool:
@@ -62,5 +62,5 @@ def at_points(scene: Scene, curves: SceneFriction, points: Points) -> SceneFrict
     if _same(scene.pressure, points.pressure) and _same(scene.velocity, points.velocity):
         return curves
     moved = replace(scene, pressure=points.pressure, velocity=points.velocity)
-    found = moved.friction()
-    return found if curves.band is None else found.within(moved.band(found.mu))
+    result = moved.friction()
+    return result if curves.band is None else result.within(moved.band(result.mu))

@@ -32,5 +32,5 @@ def check_unchanged(sources: Sequence[Source]) -> None:
 
 
 def _digest(path: Path) -> Source:
-    found = sha256(path)
-    return Source(path, path.stat().st_size, found)
+    result = sha256(path)
+    return Source(path, path.stat().st_size, result)

@@ -58,11 +58,11 @@ def over_directions(
     if not each:
         return solve(**points)  # which refuses no points
     parts = [solve(**place, direction=angle) for angle, _, place in each]
-    found = joined(parts, shape, np.concatenate([where for _, where, _ in each]))
+    result = joined(parts, shape, np.concatenate([where for _, where, _ in each]))
     angles = np.broadcast_to(direction, shape)
     notes = [note for part in parts for note in part.notes if note.code != _ALONG_X]
     return Friction._made(
-        vars(found), direction=frozen(np.array(angles)), notes=tuple(fatal_first(once(notes)))
+        vars(result), direction=frozen(np.array(angles)), notes=tuple(fatal_first(once(notes)))
     )
 
 

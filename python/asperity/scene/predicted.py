@@ -41,12 +41,12 @@ def predicted(
     if of_fitted is not None:
         inputs = np.sqrt(of_fitted)
     notes: list[Note] = []
-    for scene, here, found in model.friction(tables):
-        mu[here] = found.mu
+    for scene, here, result in model.friction(tables):
+        mu[here] = result.mu
         with np.errstate(divide="ignore", invalid="ignore"):
-            numbers[here] = found.error_estimate / found.mu
-            theory[here] = found.model_error * found.hysteresis / found.mu
-        notes += scene.notes_with(found.notes)
+            numbers[here] = result.error_estimate / result.mu
+            theory[here] = result.model_error * result.hysteresis / result.mu
+        notes += scene.notes_with(result.notes)
         if of_fitted is None and scene.has_errors:
             band = scene.band_at(model.pressure[here], model.measured.velocity[here])
             width = NormalDist().inv_cdf((1 + scene.sampling["level"]) / 2)
@@ -58,7 +58,7 @@ def predicted(
 
 
 def sentence_on(
-    found: Prediction,
+    result: Prediction,
     inside: int,
     scatter: float | None,
     fitted: int,
@@ -66,15 +66,15 @@ def sentence_on(
     rms_same_mu: float,
 ) -> str:
     """Return what may be published of a comparison, or of a fit of so many numbers."""
-    size = found.mu.size
-    parts = ("numbers", found.numbers), ("inputs", found.inputs), ("model", found.model)
+    size = result.mu.size
+    parts = ("numbers", result.numbers), ("inputs", result.inputs), ("model", result.model)
     shown = [f"{name} {_rms(error)}" for name, error in parts]
     if fitted:
         shown[1] = shown[1].replace("inputs", "fitted numbers")
     which = "left out of the fit one at a time, " if fitted else ""
     numbers = "one number of it was" if fitted == 1 else f"{fitted} numbers of it were"
     how = f"{numbers if fitted else 'nothing was'} fitted to them"
-    alone = "" if "adhesion" in found.tables else ", hysteresis alone without an [adhesion],"
+    alone = "" if "adhesion" in result.tables else ", hysteresis alone without an [adhesion],"
     of_points = "without" if scatter is None else f"with {_share(scatter)} for"
     return (
         f"Of {size} measured friction coefficients, {which}the scene{alone} predicts each to "
@@ -84,8 +84,8 @@ def sentence_on(
     )
 
 
-def _share(found: float) -> str:
-    return f"{100 * found:.2g} %" if found < 1 else f"{100 * found:.0f} %"
+def _share(result: float) -> str:
+    return f"{100 * result:.2g} %" if result < 1 else f"{100 * result:.0f} %"
 
 
 def _rms(error: Array) -> str:

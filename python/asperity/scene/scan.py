@@ -106,17 +106,17 @@ def lay_of(
     return Lay(slopes.ratio, slopes.direction, band) if slopes.along > 0 else None
 
 
-def scan_notes(scan: Scan, found: Lay | None, *, directional: bool = False) -> list[Note]:
+def scan_notes(scan: Scan, result: Lay | None, *, directional: bool = False) -> list[Note]:
     """What a reader of the spectrum must know of the scan."""
     notes = []
     if isinstance(scan, LineScan):
         text = "of a line scan: C(q) is that of the isotropic surface with such profiles"
         notes += [Note(text, code="line-scan"), *_worn_notes(scan)]
-    if found is not None and found.ratio > LAY and not directional:
-        low, high = found.band
+    if result is not None and result.ratio > LAY and not directional:
+        low, high = result.band
         text = (
-            f"the slope across the lay is {found.ratio:.3g} times that along it, which is at "
-            f"{found.degrees:.0f} degrees from x towards y (waves from {low:.3g} to {high:.3g} "
+            f"the slope across the lay is {result.ratio:.3g} times that along it, which is at "
+            f"{result.degrees:.0f} degrees from x towards y (waves from {low:.3g} to {high:.3g} "
             "1/m): the spectrum is an average over directions, and stands for none"
         )
         step = "directional = true in [surface] keeps them, and direction_deg says which is slid"

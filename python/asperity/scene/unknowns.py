@@ -70,10 +70,10 @@ class Unknown:
         if self.prior is None:
             return 0.0, 0.0
         value, deviation, scale = self.prior
-        found = self.value(inside)
+        result = self.value(inside)
         if scale == "ln":
             return (inside - math.log(value)) / deviation, 1 / deviation
-        return (found - value) / deviation, (1.0 if self.is_plain else found) / deviation
+        return (result - value) / deviation, (1.0 if self.is_plain else result) / deviation
 
     def slope(self, gradients: Gradients | None, tables: Mapping[str, Any]) -> Any:
         """Return d mu over the coordinate from the slopes of mu; None where they do not hold it."""
@@ -118,9 +118,9 @@ def unknowns_of(
 
 def _unknown(path: Path, tables: Mapping[str, Any], key: str, given: Any, *, hot: bool) -> Unknown:
     about = Argument(f"free: {shortened(str(key))}")
-    found = _KEY.fullmatch(key) if isinstance(key, str) else None
-    table, name, place = found.groups() if found else ("", "", None)
-    if found is None or name not in KEYS.get(table, ()) or table in _NOT_PHYSICAL:
+    result = _KEY.fullmatch(key) if isinstance(key, str) else None
+    table, name, place = result.groups() if result else ("", "", None)
+    if result is None or name not in KEYS.get(table, ()) or table in _NOT_PHYSICAL:
         physical = [one for one in KEYS if one not in _NOT_PHYSICAL]
         every = {f"{one}.{each}": None for one in physical for each in KEYS[one]}
         hint = nearest(str(key), every)

@@ -231,12 +231,12 @@ def friction_band(
     if temperature is not None:
         given_at["temperature"] = temperature
     (given_at if np.ndim(direction) else options)["direction"] = direction
-    found = friction(plain, of_build, adhesion=adhesion, shift=shift, **given_at, **options)
+    result = friction(plain, of_build, adhesion=adhesion, shift=shift, **given_at, **options)
     shape, columns = broadcast(**given_at)
     at = dict(zip(given_at, map(np.atleast_1d, columns), strict=True))
     if choice(method, "method", ("draws", "linear")):
         linear = linear_band(spectrum, rubber, adhesion, at, {**options, "shift": shift}, level)
-        return _band(found, Bounds(*linear), shape, level, samples=0)
+        return _band(result, Bounds(*linear), shape, level, samples=0)
     drawn: Drawn[Rubber] | Drawn[ShiftedRubber] = solid
     if temperature is not None:
         known = shift if isinstance(rubber, MasterCurveBuild) else known_shift(rubber, shift)
@@ -251,20 +251,20 @@ def friction_band(
         level=level,
         threads=threads,
     )
-    return _band(found, band, shape, level, samples)
+    return _band(result, band, shape, level, samples)
 
 
-def _band(found: Friction, band: Bounds, shape: Shape, level: float, samples: int) -> FrictionBand:
+def _band(result: Friction, band: Bounds, shape: Shape, level: float, samples: int) -> FrictionBand:
     return FrictionBand(
-        mu=found.mu,
-        lower=found.mu * shaped(band.lower, shape),
-        upper=found.mu * shaped(band.upper, shape),
-        pressure=found.pressure,
-        velocity=found.velocity,
+        mu=result.mu,
+        lower=result.mu * shaped(band.lower, shape),
+        upper=result.mu * shaped(band.upper, shape),
+        pressure=result.pressure,
+        velocity=result.velocity,
         level=float(level),
         samples=int(samples),
-        direction=found.direction,
-        notes=(*found.notes, *band.notes),
+        direction=result.direction,
+        notes=(*result.notes, *band.notes),
     )
 
 
@@ -334,22 +334,22 @@ def relative_band(
         softer: StrainFactors | None,
         scatter: float,
     ) -> Any:
-        found = at_points(surface, solid, added, softer)
-        return held.mu(found, scatter) if held else found.mu
+        result = at_points(surface, solid, added, softer)
+        return held.mu(result, scatter) if held else result.mu
 
-    found: list[Any] = []
+    result: list[Any] = []
     problem: Exception | None = None
     failed = 0
     with progress(range(samples)) as shown:
         for outcome in in_order(shown, draw, curve, threads):
             try:
-                found.append(outcome())
+                result.append(outcome())
             except _FAILURES as error:
                 problem, failed = error, failed + 1
                 if failed > _FAILED * samples:
                     raise
     notes = () if problem is None else (_left_out(failed, samples, problem),)
-    drawn = np.array(found)
+    drawn = np.array(result)
     ratio = np.divide(drawn, centre, out=np.ones_like(drawn), where=centre > 0)
     outside = (1 - level) / 2
     lower, upper = np.quantile(ratio, [outside, 1 - outside], axis=0)

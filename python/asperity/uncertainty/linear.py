@@ -40,9 +40,9 @@ class _Input:
     slopes: Callable[[Friction], Array]  # (points, coordinates)
     moved: Callable[[Array], Any]
 
-    def parts(self, found: Friction) -> Array:
+    def parts(self, result: Friction) -> Array:
         """Return what each mode does to mu, of shape (points, modes)."""
-        parts: Array = self.slopes(found) @ self.modes.T
+        parts: Array = self.slopes(result) @ self.modes.T
         return parts
 
 
@@ -93,15 +93,15 @@ def _deviation(
     leaves the slopes where every mode is at one of its own, with signs at random and opposite."""
     plain = drawn_spectrum(spectrum).plain
     inputs: dict[str, _Input] = {}
-    found = friction(plain, rubber_of(rubber), adhesion=adhesion, gradients=True, **options)
+    result = friction(plain, rubber_of(rubber), adhesion=adhesion, gradients=True, **options)
     if (surface := _surface(spectrum, plain)) is not None:
         inputs["spectrum"] = surface
     if isinstance(rubber, MasterCurveBuild):
-        inputs["rubber"] = _rubber(rubber, found, adhesion, temperature)
+        inputs["rubber"] = _rubber(rubber, result, adhesion, temperature)
     if isinstance(adhesion, AdhesionFit):
         inputs["adhesion"] = _adhesion(adhesion)
-    mu = np.where(found.mu > 0, found.mu, 1.0)[:, None]
-    parts = {name: one.parts(found) / mu for name, one in inputs.items()}
+    mu = np.where(result.mu > 0, result.mu, 1.0)[:, None]
+    parts = {name: one.parts(result) / mu for name, one in inputs.items()}
     deviation = np.sqrt(sum((of**2).sum(axis=1) for of in parts.values()))
     rng = np.random.default_rng(0)
     signs = {name: rng.choice([-1.0, 1.0], len(one.modes)) for name, one in inputs.items()}
@@ -111,10 +111,10 @@ def _deviation(
         moved = {name: one.moved(way * signs[name] @ one.modes) for name, one in inputs.items()}
         given = {"spectrum": plain, "rubber": rubber_of(rubber), "adhesion": adhesion, **moved}
         with np.errstate(divide="ignore", invalid="ignore"):
-            change = np.log(friction(**given, **options).mu / found.mu)
+            change = np.log(friction(**given, **options).mu / result.mu)
         off.append(change - way * toward)
     curved = np.abs(off).max(axis=0) / (deviation + _LEAST)
-    return deviation, np.where(found.mu > 0, curved, 0.0)
+    return deviation, np.where(result.mu > 0, curved, 0.0)
 
 
 def _curvature_notes(curved: Array) -> tuple[Note, ...]:
@@ -141,12 +141,12 @@ def _surface(source: AnySpectrum, plain: Spectrum) -> _Input | None:
         return TabulatedSpectrum(wavenumber=table.wavenumber, density=density, q1=table.q1)
 
     covariance = row_covariance(table)
-    return _Input(_root(covariance), lambda found: _of(found).spectrum * weight, moved)
+    return _Input(_root(covariance), lambda result: _of(result).spectrum * weight, moved)
 
 
 def _law(fit: SelfAffineFit) -> _Input:
-    def slopes(found: Friction) -> Array:
-        of = _of(found)
+    def slopes(result: Friction) -> Array:
+        of = _of(result)
         columns = [of.rms_height, of.hurst / fit.hurst]
         return np.stack([*columns, *([of.rolloff] if fit.rolloff else [])], axis=-1)
 
@@ -164,12 +164,12 @@ def _law(fit: SelfAffineFit) -> _Input:
 
 def _rubber(
     build: MasterCurveBuild,
-    found: Friction,
+    result: Friction,
     adhesion: Adhesion | None,
     temperature: float | None,
 ) -> _Input:
     """ln E' and ln E'' at the rows of the slopes, and ln a_T at the temperature."""
-    curve, w = build.master_curve, _of(found).angular_frequency
+    curve, w = build.master_curve, _of(result).angular_frequency
     storage, loss, decades = master_curve_modes(build, w)
     shift = np.zeros((len(storage), 1))
     if temperature is not None:  # between isotherms about as their neighbours
@@ -177,9 +177,9 @@ def _rubber(
         shift *= np.log(10)
     weight = _weights(w)
 
-    def slopes(found: Friction) -> Array:
-        of = _of(found)
-        by_shift = of.velocity - _adhesion_over_velocity(found, adhesion)
+    def slopes(result: Friction) -> Array:
+        of = _of(result)
+        by_shift = of.velocity - _adhesion_over_velocity(result, adhesion)
         return np.hstack([of.storage * weight, of.loss * weight, by_shift[:, None]])
 
     def moved(by: Array) -> Rubber:
@@ -197,17 +197,17 @@ def _rubber(
     return _Input(np.hstack([storage, loss, shift]), slopes, moved)
 
 
-def _adhesion_over_velocity(found: Friction, adhesion: Adhesion | None) -> Any:
+def _adhesion_over_velocity(result: Friction, adhesion: Adhesion | None) -> Any:
     """Return d mu / d ln v by Eq. 23's own velocity, which no a_T moves."""
     if adhesion is None:
         return 0.0
-    decades = np.log10(found.velocity / adhesion.reference_velocity)
-    return found.adhesion * (-2 * adhesion.width * decades / np.log(10))
+    decades = np.log10(result.velocity / adhesion.reference_velocity)
+    return result.adhesion * (-2 * adhesion.width * decades / np.log(10))
 
 
 def _adhesion(fit: AdhesionFit) -> _Input:
-    def slopes(found: Friction) -> Array:
-        of = _of(found)
+    def slopes(result: Friction) -> Array:
+        of = _of(result)
         width = of.width / fit.width if fit.width else np.zeros_like(of.width)
         return np.stack([of.shear_stress, of.reference_velocity, width], axis=-1)
 
@@ -221,9 +221,9 @@ def _adhesion(fit: AdhesionFit) -> _Input:
     return _Input(_root(adhesion_covariance(fit)), slopes, moved)
 
 
-def _of(found: Friction) -> Gradients:
-    assert found.gradients is not None
-    return found.gradients
+def _of(result: Friction) -> Gradients:
+    assert result.gradients is not None
+    return result.gradients
 
 
 def _weights(rows: Array) -> Array:

@@ -69,5 +69,5 @@ def _scatter(samples: int) -> NDArray[np.float64]:
     """Quantiles of Student's t of three degrees of freedom: four quarters tell the error."""
     t = np.sinh(np.linspace(-8, 8, 4001))
     share = 0.5 + (t / np.sqrt(3) / (1 + t**2 / 3) + np.arctan(t / np.sqrt(3))) / np.pi
-    found: NDArray[np.float64] = np.interp((np.arange(samples) + 0.5) / samples, share, t)
-    return found
+    result: NDArray[np.float64] = np.interp((np.arange(samples) + 0.5) / samples, share, t)
+    return result

@@ -103,9 +103,9 @@ class Presets:
 
     @cached_property
     def _datasets(self) -> dict[str, dict[str, list[float]]]:
-        found = json.loads((self.root / "reference_datasets.json").read_text(encoding="utf-8"))
-        assert isinstance(found, dict)
-        return found
+        result = json.loads((self.root / "reference_datasets.json").read_text(encoding="utf-8"))
+        assert isinstance(result, dict)
+        return result
 
     def program(self, name: str) -> tuple[Array, Array, Array]:
         """v, mu and A/A0 of the commercial program."""

@@ -47,8 +47,8 @@ def map_of(seed: int, points: int, longest: int = 1) -> asperity.HeightMap:
 def excess(pressure: Array, points: int) -> Array:
     """Whole pixels over the area without the perimeter's excess."""
     loads = pressure / LAW.rms_slope
-    found = contact(map_of(SEEDS[0], points), p_over_Eh=loads, periodic=True)
-    return found.area_raw / found.area
+    result = contact(map_of(SEEDS[0], points), p_over_Eh=loads, periodic=True)
+    return result.area_raw / result.area
 
 
 def contacts(pressure: Array, area: Array) -> list[Contact]:
@@ -96,7 +96,7 @@ class Gaps:
 def gaps(root: Path) -> list[Gaps]:
     """The distributions as counts up to the edges of bins: the first one, half as wide beside
     contact, has contact too. Maps of ours have four of the longest waves to a side."""
-    found = []
+    result = []
     maps = [map_of(seed, POINTS[0], longest=4) for seed in SEEDS]
     for name in ("low", "high"):
         data = loadmat(root / f"Data/GFMD_final_results_{name}_from_Zhou.mat")
@@ -110,10 +110,10 @@ def gaps(root: Path) -> list[Gaps]:
                 at = {"pressure": float(p), "velocity": 0.0, "poisson_ratio": 0.0}
                 solved = np.sort(slide(surface, SOLID, **at, periodic=True, rtol=1e-4).gap.ravel())
                 own.append(1 - np.searchsorted(solved, edges * surface.rms_height) / solved.size)
-            found.append(
+            result.append(
                 Gaps(float(p), float(area), edges, 1 - np.cumsum(d) * width, np.array(own))
             )
-    return found
+    return result
 
 
 def main() -> None:

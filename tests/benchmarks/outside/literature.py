@@ -55,20 +55,20 @@ def sliding(rubber: asperity.PronySeries, load: float, velocity: float) -> dict[
     surface = asperity.synthesize(LAW, **GRID, seed=1)
     at = {"pressure": pressure_of(rubber, load, velocity), "velocity": velocity}
     exact = slide(surface, rubber, **at, periodic=True, rtol=1e-4)
-    found = {"area": exact.contact_area, "mu": exact.hysteresis}
+    result = {"area": exact.contact_area, "mu": exact.hysteresis}
     for name, correction in (("none", None), ("rule", asperity.PartialContact())):
         said = asperity.friction(LAW, rubber, **at, correction=correction)
-        found |= {
+        result |= {
             f"area, {name}": said.contact_area / exact.contact_area,
             f"mu, {name}": said.mu / exact.hysteresis,
         }
     for gamma in TWICE:
         mu, area = scheme({"spectrum": LAW, "rubber": rubber} | at, gamma)
-        found |= {
+        result |= {
             f"area, {gamma}": area / exact.contact_area,
             f"mu, {gamma}": mu / exact.hysteresis,
         }
-    return found
+    return result
 
 
 def areas() -> None:
@@ -77,28 +77,28 @@ def areas() -> None:
     print(
         "| p* | elastic A | " + " | ".join(RUBBERS) + " |\n" + "| --- " * (2 + len(RUBBERS)) + "|"
     )
-    found = {}
+    result = {}
     for load in LOADS:
         at = {"pressure": pressure_of(ELASTIC, load, 1.0), "velocity": 0.0}
         still = slide(surface, ELASTIC, **at, periodic=True, rtol=1e-4).contact_area
         cells = []
         for name, rubber in RUBBERS.items():
-            found[load, name] = [sliding(rubber, load, velocity) for velocity in SPEEDS]
-            ratio = [one["area"] / still for one in found[load, name]]
+            result[load, name] = [sliding(rubber, load, velocity) for velocity in SPEEDS]
+            ratio = [one["area"] / still for one in result[load, name]]
             cells.append(", ".join(f"{x:.2f}" for x in ratio))
         print(f"| {load:g} | {still:.4f} | " + " | ".join(cells) + " |")
     print("\nspeeds in m/s: " + ", ".join(f"{v:g}" for v in SPEEDS))
     print("\nmu without correction, of PartialContact, over exact\n")
     print("| p* | rubber | " + " | ".join(f"{v:g} m/s" for v in SPEEDS) + " |")
     print("| --- " * (2 + len(SPEEDS)) + "|")
-    for (load, name), row in found.items():
+    for (load, name), row in result.items():
         cells = (f"{one['mu, none']:.2f}, {one['mu, rule']:.2f}" for one in row)
         print(f"| {load:g} | {name} | " + " | ".join(cells) + " |")
     print("\nerrors of all of these, rms (mean) in %\n\n| model | mu | A |\n| --- | --- | --- |")
     for model in ("none", "rule", *map(str, TWICE)):
         cells = []
         for quantity in ("mu", "area"):
-            rows = [one[f"{quantity}, {model}"] for row in found.values() for one in row]
+            rows = [one[f"{quantity}, {model}"] for row in result.values() for one in row]
             off = 100 * (np.array(rows) - 1)
             cells.append(f"{np.sqrt(np.mean(off**2)):.0f} ({off.mean():+.0f})")
         print(f"| {model} | " + " | ".join(cells) + " |")

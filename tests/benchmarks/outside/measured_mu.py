@@ -38,7 +38,7 @@ Rows = dict[str, tuple[Array, Array, Array, Array]]
 
 def points(presets: clone.Presets, correction: Any, factors: str | None = None) -> Rows:
     """By compound: v as the R files have it, mu, mu_H and A; f and g are its own or given ones."""
-    found = {}
+    result = {}
     for name, compound in clone.COMPOUNDS.items():
         velocity, mu = presets.measured(name)
         own = asperity.friction(
@@ -51,8 +51,8 @@ def points(presets: clone.Presets, correction: Any, factors: str | None = None) 
             rtol=1e-4,
         )
         slow = velocity / (COMMON if name.startswith("S") else 1.0)
-        found[name] = slow, mu, own.mu, own.contact_area
-    return found
+        result[name] = slow, mu, own.mu, own.contact_area
+    return result
 
 
 def stress(rows: tuple[Array, Array, Array, Array]) -> Array:
@@ -93,9 +93,9 @@ def main() -> None:
     )
     rows = points(presets, asperity.PartialContact())
     print("| compound | v [m/s] | mu | mu_H / mu | A | tau [MPa] |\n" + "| --- " * 6 + "|")
-    for name, found in rows.items():
-        v, mu, hysteresis, area = found
-        cells = (v, mu, hysteresis / mu, area, stress(found) / 1e6)
+    for name, result in rows.items():
+        v, mu, hysteresis, area = result
+        cells = (v, mu, hysteresis / mu, area, stress(result) / 1e6)
         ranges = (f"{x.min():.3g} to {x.max():.3g}" for x in cells)
         print(f"| {name} | " + " | ".join(ranges) + " |")
     print("\n| left out of | points | mean of the others | " + " | ".join(CORRECTIONS) + " |")
@@ -103,9 +103,9 @@ def main() -> None:
     for label, factors in (("", None), (", one f and g for all", clone.ONE_FOR_ALL)):
         of = [points(presets, correction, factors) for correction in CORRECTIONS.values()]
         for group, names in GROUPS.items():
-            found = [errors(each, names) for each in of]
-            theory = " | ".join(percent(each) for each, _ in found)
-            baseline = found[0][1]
+            result = [errors(each, names) for each in of]
+            theory = " | ".join(percent(each) for each, _ in result)
+            baseline = result[0][1]
             print(f"| {group}{label} | {baseline.size} | {percent(baseline)} | {theory} |")
     if len(sys.argv) > 2:
         path = Path(sys.argv[2])

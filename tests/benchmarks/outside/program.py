@@ -107,7 +107,7 @@ def profile(presets: clone.Presets) -> tuple[float, Array, Array]:
 
 def compare(presets: clone.Presets) -> dict[str, dict[str, tuple[Array, Array, Array, Array]]]:
     """By scene and model: v, mu of the model, and mu and A over the program's, less 1."""
-    found: dict[str, dict[str, tuple[Array, Array, Array, Array]]] = {}
+    result: dict[str, dict[str, tuple[Array, Array, Array, Array]]] = {}
     for scene in SCENES:
         velocity, mu, area = (x[::EVERY] for x in presets.program(scene.dataset))
         given = cold(inputs(presets, scene, velocity), presets.shift(scene.compound))
@@ -115,10 +115,10 @@ def compare(presets: clone.Presets) -> dict[str, dict[str, tuple[Array, Array, A
         for name, correction in OWN.items():
             own = asperity.friction(**given, correction=correction, rtol=1e-4)
             models[name] = own.mu, own.contact_area
-        found[scene.name] = {
+        result[scene.name] = {
             name: (velocity, m, m / mu - 1, a / area - 1) for name, (m, a) in models.items()
         }
-    return found
+    return result
 
 
 def heat(presets: clone.Presets) -> dict[str, Any]:
@@ -152,11 +152,13 @@ def main() -> None:
     presets = clone.Presets(
         clone.given("k100kan35-dotcom/psfinal_hysteresis_redesign", "reference_datasets.json")
     )
-    found = compare(presets)
+    result = compare(presets)
     print("mu; A over the program's, %, mean (lowest to highest):\n")
-    print("| model | " + " | ".join(found) + " |\n" + "| --- " * (1 + len(found)) + "|")
-    for model in next(iter(found.values())):
-        cells = (f"{percent(rows[model][2])}; {percent(rows[model][3])}" for rows in found.values())
+    print("| model | " + " | ".join(result) + " |\n" + "| --- " * (1 + len(result)) + "|")
+    for model in next(iter(result.values())):
+        cells = (
+            f"{percent(rows[model][2])}; {percent(rows[model][3])}" for rows in result.values()
+        )
         print(f"| {model} | " + " | ".join(cells) + " |")
     hot = heat(presets)
     print(
@@ -175,15 +177,15 @@ def main() -> None:
         print(f"| {q[i]:.3g} | {rise[i] - 293.15:.2f} | {own[i] - 293.15:.2f} |")
     if len(sys.argv) > 2:
         path = Path(sys.argv[2])
-        path.write_bytes(draw(found, hot, path))
+        path.write_bytes(draw(result, hot, path))
 
 
-def draw(found: Any, hot: Any, path: Path) -> bytes:
+def draw(result: Any, hot: Any, path: Path) -> bytes:
     """What is left of mu and A, and of the heat."""
     figure, (of_mu, of_area, of_heat, of_rise) = new_figure(4)
     styles = {"S twice, 0.50": ":", "S twice, 0.60": "-", "`PartialContact`": "--"}
     for colour, scene in zip(COLOURS, DRAWN, strict=False):
-        rows = found[scene]
+        rows = result[scene]
         for model, style in styles.items():
             v, _, mu, area = rows[model]
             label = scene if style == "-" else None

@@ -21,9 +21,9 @@ def made(more):
 
 @pytest.mark.parametrize("more", [{}, LAW])
 def test_bars_have_the_worth_of_their_decade(more):
-    found = made(more)
+    result = made(more)
     parts = {
-        part: [one for one in found.worths if one.part == part] for part in ("storage", "loss")
+        part: [one for one in result.worths if one.part == part] for part in ("storage", "loss")
     }
     chart = charts.worth_chart(parts, "decade")
     names = chart["xAxis"]["data"]

@@ -47,11 +47,11 @@ def test_a_master_curve_in_any_units_is_that_curve(modulus: str, state: State) -
     name = state.keep_dma("curve.csv", "\n".join(lines).encode())
     assert "temperature" not in state.guesses[name].columns
     take(state, name)
-    found = state.load().rubber
-    assert isinstance(found, asperity.MasterCurve)
-    assert found.angular_frequency == pytest.approx(2 * np.pi * hertz, rel=1e-12)
-    assert found.storage_modulus == pytest.approx(e.real, rel=1e-12)
-    assert found.loss_modulus == pytest.approx(e.imag, rel=1e-12)
+    result = state.load().rubber
+    assert isinstance(result, asperity.MasterCurve)
+    assert result.angular_frequency == pytest.approx(2 * np.pi * hertz, rel=1e-12)
+    assert result.storage_modulus == pytest.approx(e.real, rel=1e-12)
+    assert result.loss_modulus == pytest.approx(e.imag, rel=1e-12)
     assert "was dropped as curve.csv" in state.text
     assert "temperature" not in state.text
     assert state.load().friction().mu.max() > 0

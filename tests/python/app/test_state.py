@@ -290,7 +290,7 @@ def test_columns_are_guessed(
     row = mark.join(["1.5"] * len(header.splitlines()[0].split(mark)))
     (tmp_path / "dma.txt").write_text(f"made by nobody\n{header}\n{row}\n{row}\n")
     guess = guess_columns(tmp_path / "dma.txt")
-    found = [guess.columns[q] for q in ("frequency", "storage", "loss", "temperature")]
-    assert found == columns
+    result = [guess.columns[q] for q in ("frequency", "storage", "loss", "temperature")]
+    assert result == columns
     assert [guess.units[kind] for kind in ("frequency", "modulus", "temperature")] == units
     assert guess.modulus == modulus

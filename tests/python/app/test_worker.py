@@ -25,11 +25,11 @@ class Page(Shows):
         self.shown: list[Found] = []
         self.problems: list[Error] = []
 
-    def show_curve(self, found: Found) -> None:
-        self.curves.append(found)
+    def show_curve(self, result: Found) -> None:
+        self.curves.append(result)
 
-    def show(self, found: Found) -> None:
-        self.shown.append(found)
+    def show(self, result: Found) -> None:
+        self.shown.append(result)
 
     def fail(self, problem: Error) -> None:
         self.problems.append(problem)
@@ -179,14 +179,14 @@ def test_a_variant_is_the_scene_of_its_curve_whatever_was_edited_since(state: St
         await worker.changed()
         state.conditions = {**state.conditions, "pressure_pa": 243e3}
         state.use("heating", True)
-        found = page.curves[-1]
-        state.keep_variant("before", found.tables, found.scene, found.best)
+        result = page.curves[-1]
+        state.keep_variant("before", result.tables, result.scene, result.best)
         await until(lambda: page.shown and page.shown[-1].whole)
-        return found
+        return result
 
-    found = asyncio.run(run())
+    result = asyncio.run(run())
     kept = state.variants[0]
-    assert kept.tables["conditions"]["pressure_pa"] == 81e3 == found.scene.pressure
+    assert kept.tables["conditions"]["pressure_pa"] == 81e3 == result.scene.pressure
     assert "heating" not in kept.tables
     assert np.array_equal(state.load(kept.tables).friction().mu, kept.curves.mu)
     assert state.load().pressure == 243e3

@@ -89,8 +89,8 @@ def test_the_published_summary_is_that_of_a_run(run: tuple[Path, str]) -> None:
         statements(text).values(), statements(PUBLISHED).values(), strict=True
     ):
         assert {**ours, "found": ""} == {**published, "found": ""}
-    found = [row["verdict"] for row in statements(PUBLISHED).values()]
-    parts = [f"{found.count(verdict)} {verdict}" for verdict in VERDICTS]
+    result = [row["verdict"] for row in statements(PUBLISHED).values()]
+    parts = [f"{result.count(verdict)} {verdict}" for verdict in VERDICTS]
     line = f"77 statements: {', '.join(parts[:-1])}; {parts[-1]}, set apart"
     assert f"\n{line}.\n" in PUBLISHED
     assert printed == f"{line}\nsummary: {summary}\n"
@@ -116,18 +116,18 @@ def test_figure_1_distributes_the_load(figure: Callable[[str], Figure]) -> None:
 
 def test_figure_5_has_one_rubber_moved(figure: Callable[[str], Figure], inputs: Inputs) -> None:
     """B is A by WLF of their T_g, and each tuned A by its decades."""
-    found, columns = figure("fig05"), ("storage_modulus_pa", "loss_modulus_pa")
-    w = found.part("compound", "A", "angular_frequency_rad_s")
+    result, columns = figure("fig05"), ("storage_modulus_pa", "loss_modulus_pa")
+    w = result.part("compound", "A", "angular_frequency_rad_s")
 
     def log_a_t(t_g: float) -> float:
         return -17.44 * (20 - t_g) / (51.6 + 20 - t_g)
 
     decades = {"B": log_a_t(-21.7) - log_a_t(-32.0)}
-    decades |= {f"A, tuned ({k})": found.given[f"tuned_by_decades_{k}"] for k in inputs.tuned}
+    decades |= {f"A, tuned ({k})": result.given[f"tuned_by_decades_{k}"] for k in inputs.tuned}
     for name, moved in decades.items():
         modulus = inputs.compound_a.modulus(w * 10**moved)
         for column, wanted in zip(columns, (modulus.real, modulus.imag), strict=True):
-            np.testing.assert_allclose(found.part("compound", name, column), wanted, rtol=1e-9)
+            np.testing.assert_allclose(result.part("compound", name, column), wanted, rtol=1e-9)
 
 
 @pytest.mark.parametrize("surface", H)
@@ -146,14 +146,14 @@ def test_figure_7_is_about_the_spectrum_put_in(
 def test_figures_8_and_9_are_of_peaks_apart(
     figure: Callable[[str], Figure], name: str, distance: float, p_t: float
 ) -> None:
-    found = figure(name)
-    x, y, height = found.part("part", "peaks", "x_m", "y_m", "height_m")
+    result = figure(name)
+    x, y, height = result.part("part", "peaks", "x_m", "y_m", "height_m")
     apart = np.hypot(x[:, None] - x, y[:, None] - y)[np.triu_indices(x.size, 1)]
     assert distance * 2 * np.pi / Q0 * (1 - 1e-9) <= apart.min()
     scan = height.max() / (height.max() - height.mean())  # Eq. 13: the highest peak is z_max
-    assert found.given["p_t1_scan"] == pytest.approx(scan)
+    assert result.given["p_t1_scan"] == pytest.approx(scan)
     for column, p in (("lp_cf_printed", p_t), ("lp_cf_scan", scan)):
-        plain, factor = found.part("part", "factors", "pf_cf", column)
+        plain, factor = result.part("part", "factors", "pf_cf", column)
         # light contact: LP-CF / PF-CF is 1 / (p_T gamma) to 1e-6; full contact: 1 / p_T^2
         assert factor[-1] / plain[-1] == pytest.approx(1 / (p * GAMMA), rel=1e-5)
         assert factor[0] / plain[0] == pytest.approx(1 / p**2, rel=1e-12)
@@ -170,9 +170,9 @@ def test_figures_8_and_9_are_of_peaks_apart(
 def test_figures_10_to_12_end_by_p_t(
     figure: Callable[[str], Figure], name: str, columns: tuple[str, str], ratio: Any
 ) -> None:
-    found = figure(name)
+    result = figure(name)
     for load, wanted in zip(LOADS, ratio, strict=True):
-        zeta, before, after = found.part("pressure_pa", load, "magnification", *columns)
+        zeta, before, after = result.part("pressure_pa", load, "magnification", *columns)
         assert zeta[0] == 1
         assert before[0] == 1
         assert zeta[-1] == 500
@@ -185,7 +185,7 @@ def test_areas_and_factors_are_of_the_tuned_compound(
     figure: Callable[[str], Figure], inputs: Inputs, name: str
 ) -> None:
     """Again at the load, from the parameters as the article prints them."""
-    first, found = name == "fig01", figure(name)
+    first, result = name == "fig01", figure(name)
     zeta = np.array([1.5, 5.0, 25.0] if first else [1.001, 1.01, 2.0, 30.0])
     area = asperity.contact_area(
         asperity.SelfAffineSpectrum(rms_height=H0["sandpaper"], hurst=0.7, q0=Q0, q1=500 * Q0),
@@ -195,11 +195,11 @@ def test_areas_and_factors_are_of_the_tuned_compound(
         wavenumber=zeta * Q0,
     )
     if first:
-        assert np.unique(found["contact_area"]).tolist() == pytest.approx(area[::-1])
+        assert np.unique(result["contact_area"]).tolist() == pytest.approx(area[::-1])
         return
     rows = ("part", "factors") if name < "fig10" else ("pressure_pa", 0.3e6)
     curve = "original_area" if name == "fig10" else "pf_cf"
-    x, y = found.part(*rows, "magnification", curve)
+    x, y = result.part(*rows, "magnification", curve)
     if curve == "pf_cf":
         area *= GAMMA + (1 - GAMMA) * area**2  # S = gamma + (1 - gamma) P^2
     np.testing.assert_allclose(np.exp(np.interp(zeta, x, np.log(y))), area, rtol=2e-3)
@@ -211,9 +211,9 @@ def test_figures_13_and_14_rise_and_fall_as_is_said(
 ) -> None:
     columns = ("pressure_pa", "velocity_m_s", "separation_m", "shift_factor")
     for reading in ("implicit", "added"):
-        found = figure(name)
-        pressure, velocity, d, p = found.part("reading", reading, *columns)
-        z_max, z_min = (found.given[f"{reading}.z_{end}_m"] for end in ("max", "min"))
+        result = figure(name)
+        pressure, velocity, d, p = result.part("reading", reading, *columns)
+        z_max, z_min = (result.given[f"{reading}.z_{end}_m"] for end in ("max", "min"))
         partial = (d > z_min) & (d < z_max)
         wanted = (z_max - z_min) / (z_max - d[partial])
         np.testing.assert_allclose(p[partial], wanted, rtol=1e-9)
@@ -229,7 +229,7 @@ def test_figures_13_and_14_rise_and_fall_as_is_said(
 
 
 def test_figure_15_and_table_1_follow_from_the_parameters(figure: Callable[[str], Figure]) -> None:
-    found, table = figure("fig15"), figure("table1")
+    result, table = figure("fig15"), figure("table1")
     values = dict(zip(table.text["quantity"], table["value"], strict=True))
     assert table["value"][:8] == pytest.approx([0.87, 265.7, 2000, 1e6, 0.1, 6, 8.3, 81])
     whole = float(density("asphalt", Q0))
@@ -238,14 +238,16 @@ def test_figure_15_and_table_1_follow_from_the_parameters(figure: Callable[[str]
     assert values["spectrum at q0, Eq. 12 as printed"] == pytest.approx(printed, rel=1e-12)
     assert values["rms slope to 500 q0"] == pytest.approx(2.76, abs=0.005)
     assert values["q1 at rms slope 1.3"] == pytest.approx(11.67, abs=0.005)
-    np.testing.assert_allclose(found["mu"], found["hysteresis"] + found["adhesion"], rtol=1e-12)
+    np.testing.assert_allclose(result["mu"], result["hysteresis"] + result["adhesion"], rtol=1e-12)
     # Eq. 23, c = 0.1, v0 = 6 mm/s
-    law = np.exp(-0.1 * np.log10(found["velocity_m_s"] / 6e-3) ** 2)
-    adhesion = 8.3e6 / 81e3 * found["contact_area"] * law
-    np.testing.assert_allclose(found["adhesion"], adhesion, rtol=1e-9)
+    law = np.exp(-0.1 * np.log10(result["velocity_m_s"] / 6e-3) ** 2)
+    adhesion = 8.3e6 / 81e3 * result["contact_area"] * law
+    np.testing.assert_allclose(result["adhesion"], adhesion, rtol=1e-9)
     for k, which in enumerate(("original", "modified, implicit")):
-        v, mu, p = found.part("theory", which, "velocity_m_s", "mu", "shift_factor")
+        v, mu, p = result.part("theory", which, "velocity_m_s", "mu", "shift_factor")
         assert p.min() >= 1 if k else np.all(p == 1)
         listed = table["value"][table.text["symbol"] == "mu"][[4 * k + 2, 8 + 4 * k + 2]]
         assert mu[abs(v - 0.1) < 1e-9].tolist() == listed.tolist()
-    assert any("measured points of the article's Fig. 15 are not at hand" in n for n in found.notes)
+    assert any(
+        "measured points of the article's Fig. 15 are not at hand" in n for n in result.notes
+    )

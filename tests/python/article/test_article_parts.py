@@ -14,13 +14,13 @@ H_RMS = 76.572e-6
 
 @pytest.mark.parametrize("reading", readings.READINGS)
 def test_implied_modulus_is_a_range_that_keeps_the_printed_digits(reading: str) -> None:
-    found = readings.implied(reading, H_RMS, inputs.Q0)
-    assert found.lowest < found.effective_modulus < found.highest
-    assert found.shift_factor.round(2).tolist() == list(readings.PRINTED.values())
+    result = readings.implied(reading, H_RMS, inputs.Q0)
+    assert result.lowest < result.effective_modulus < result.highest
+    assert result.shift_factor.round(2).tolist() == list(readings.PRINTED.values())
     # the search ends 1e-4 from the edge in ln E*
-    for inside in (found.lowest, found.highest):
+    for inside in (result.lowest, result.highest):
         assert keeps_digits(reading, inside)
-    for outside in (found.lowest * 0.99, found.highest * 1.01):
+    for outside in (result.lowest * 0.99, result.highest * 1.01):
         assert not keeps_digits(reading, outside)
 
 
@@ -59,13 +59,13 @@ def test_printed_variance_is_eqs_25_to_27_term_by_term() -> None:
 
 
 def test_nothing_that_is_untuned_knows_the_printed_p_t() -> None:
-    found = inputs.prepare((1, 2))
-    heights = [scan.z_max for scan in found.gaussian_scans]
-    for model in found.untuned.values():
-        assert model.rubber is found.compound_a
+    result = inputs.prepare((1, 2))
+    heights = [scan.z_max for scan in result.gaussian_scans]
+    for model in result.untuned.values():
+        assert model.rubber is result.compound_a
         assert model.correction.z_max == pytest.approx(np.mean(heights), rel=1e-15)
-    assert list(found.models) == ["implicit", "added", "untuned, implicit", "untuned, added"]
-    assert list(found.compounds) == ["implicit", "added", "untuned"]
+    assert list(result.models) == ["implicit", "added", "untuned, implicit", "untuned, added"]
+    assert list(result.compounds) == ["implicit", "added", "untuned"]
 
 
 @pytest.mark.parametrize(
@@ -89,5 +89,5 @@ def test_nothing_that_is_untuned_knows_the_printed_p_t() -> None:
 def test_verdicts_follow_from_tests(
     rule: str, tuned: list[bool], untuned: object, verdict: str
 ) -> None:
-    found = {f"reading {k}": Finding(held) for k, held in enumerate(tuned)}
-    assert statement.verdict(rule, {**found, "untuned": Finding(untuned)}) == verdict
+    result = {f"reading {k}": Finding(held) for k, held in enumerate(tuned)}
+    assert statement.verdict(rule, {**result, "untuned": Finding(untuned)}) == verdict

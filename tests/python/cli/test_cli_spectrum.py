@@ -31,30 +31,30 @@ def test_a_map_is_fitted_where_it_is_reliable(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     np.save("map.npy", SCAN.heights)
-    found, said = run(capsys, "map.npy", *READ)
-    assert found["reliable_from_per_m"] == pytest.approx(16 * 2 * np.pi / (SIDE * PIXEL), rel=0.03)
-    assert found["fit_q0_per_m"] == found["reliable_from_per_m"]
-    assert found["fit_q1_per_m"] == found["reliable_to_per_m"] <= np.pi / PIXEL / 2
-    assert found["fit_hurst"] == pytest.approx(0.8, abs=4 * found["fit_hurst_standard_error"])
-    assert found["slope_anisotropy"] == pytest.approx(1, abs=0.1)
+    result, said = run(capsys, "map.npy", *READ)
+    assert result["reliable_from_per_m"] == pytest.approx(16 * 2 * np.pi / (SIDE * PIXEL), rel=0.03)
+    assert result["fit_q0_per_m"] == result["reliable_from_per_m"]
+    assert result["fit_q1_per_m"] == result["reliable_to_per_m"] <= np.pi / PIXEL / 2
+    assert result["fit_hurst"] == pytest.approx(0.8, abs=4 * result["fit_hurst_standard_error"])
+    assert result["slope_anisotropy"] == pytest.approx(1, abs=0.1)
     assert "lay" not in said
 
 
 def test_a_slope_fit_is_eq_28_alone(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     np.save("map.npy", SCAN.heights)
-    found, _ = run(capsys, "map.npy", *READ, "--method", "slope")
+    result, _ = run(capsys, "map.npy", *READ, "--method", "slope")
     spectrum = asperity.power_spectrum(asperity.HeightMap(SCAN.heights, pixel_size=PIXEL))
     q = spectrum.wavenumber
-    used = (q >= 0.9999 * found["fit_q0_per_m"]) & (q <= 1.0001 * found["fit_q1_per_m"])
+    used = (q >= 0.9999 * result["fit_q0_per_m"]) & (q <= 1.0001 * result["fit_q1_per_m"])
     slope = np.polyfit(np.log(q[used]), np.log(spectrum.density[used]), 1)[0]
-    assert found["fit_hurst"] == pytest.approx(-slope / 2 - 1, abs=1e-5)
+    assert result["fit_hurst"] == pytest.approx(-slope / 2 - 1, abs=1e-5)
 
 
 def test_a_lay_is_said(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     np.save("map.npy", SCAN.heights)
-    found, said = run(capsys, "map.npy", "--pixel-size", f"{3 * PIXEL},{PIXEL}", "--unit", "m")
-    assert found["slope_anisotropy"] > 2
-    assert found["lay_deg"] == pytest.approx(90, abs=10)  # x was squeezed
+    result, said = run(capsys, "map.npy", "--pixel-size", f"{3 * PIXEL},{PIXEL}", "--unit", "m")
+    assert result["slope_anisotropy"] > 2
+    assert result["lay_deg"] == pytest.approx(90, abs=10)  # x was squeezed
     assert "note: the slope across the lay is" in said
 
 
@@ -137,13 +137,13 @@ def test_noise_is_told_and_whether_the_scan_serves(
     noise = noise * np.random.default_rng(1).standard_normal(heights.shape)
     for name, scan in (("clean.npy", heights), ("noisy.npy", heights + noise)):
         np.save(name, scan)
-        found, said = run(capsys, name, *READ, "--output", "s.csv")
+        result, said = run(capsys, name, *READ, "--output", "s.csv")
         (line,) = [line for line in said.splitlines() if "this scan serves" in line]
-        last = found.get("noise_from_per_m", found["reliable_to_per_m"])
-        assert f"from {found['reliable_from_per_m']:.3g} to {last:.3g} 1/m" in line
-        assert ("ends flat" in said) == ("noise_from_per_m" in found) == (name == "noisy.npy")
+        last = result.get("noise_from_per_m", result["reliable_to_per_m"])
+        assert f"from {result['reliable_from_per_m']:.3g} to {last:.3g} 1/m" in line
+        assert ("ends flat" in said) == ("noise_from_per_m" in result) == (name == "noisy.npy")
         spectrum = measured(np.load(name))
-        slopes = [spectrum.truncated(q1=q).rms_slope for q in (found["reliable_from_per_m"], last)]
+        slopes = [spectrum.truncated(q1=q).rms_slope for q in (result["reliable_from_per_m"], last)]
         share = (slopes[1] ** 2 - slopes[0] ** 2) / spectrum.rms_slope**2
         assert f"with {100 * share:.0f} % of" in line
         assert ("only: mu hangs on the rest" in line) == (share < 0.5)

@@ -14,7 +14,7 @@ READ = ["--pixel-size", str(PIXEL), "--unit", "um"]
 HEIGHTS = surface(law(0.8, rolloff=1e5), (600, 700), PIXEL, 1, dtype=np.float32) * 1e6
 
 
-def found(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, float]:
+def result(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, float]:
     assert main(["spectrum", *arguments]) == 0
     pairs = [line.split(" = ") for line in capsys.readouterr().err.splitlines() if " = " in line]
     return {name: float(value) for name, value in pairs if name.isidentifier()}
@@ -28,9 +28,9 @@ def test_a_file_and_an_array_give_what_python_does(
     group = zarr.create_group("scan.zarr")
     group.create_array("x", data=np.arange(5.0))
     group.create_array("height", data=HEIGHTS, chunks=(256, 256))
-    first = found(capsys, "map.npy", *READ, "--tiles", "512", "--output", "map.csv")
+    first = result(capsys, "map.npy", *READ, "--tiles", "512", "--output", "map.csv")
     arguments = ["--tiles", "512,512", "--threads", "2", "--plot", "a.png"]
-    second = found(capsys, "scan.zarr", *READ, *arguments)
+    second = result(capsys, "scan.zarr", *READ, *arguments)
     assert first == second
     metres = HEIGHTS * np.float32(1e-6)
     spectrum = asperity.power_spectrum(metres, pixel_size=PIXEL, tiles=512)

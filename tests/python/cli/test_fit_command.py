@@ -86,12 +86,12 @@ def test_from_a_measurement_to_the_adhesion_its_curve_and_a_picture(scene, tmp_p
     arguments = ["--json", "--output", str(out), "--plot", str(picture)]
     assert main(["fit", str(path), str(measured), *arguments]) == 0
     content = json.loads(out.read_text())
-    found = content["inputs"][0]["found"]
+    result = content["inputs"][0]["found"]
     for key, name in KEYS.items():
-        error = found[f"{key}_standard_error"]
-        assert 0 < error < 0.5 * found[key]
-        assert abs(found[key] - TRUTH[name]) < 4 * error
-    assert found["residual"] == pytest.approx(0.05, rel=0.5)
+        error = result[f"{key}_standard_error"]
+        assert 0 < error < 0.5 * result[key]
+        assert abs(result[key] - TRUTH[name]) < 4 * error
+    assert result["residual"] == pytest.approx(0.05, rel=0.5)
     terminal = capsys.readouterr().err
     assert "shear_stress_pa = " in terminal
     low, mu, high = (np.array(content["columns"][name]) for name in ("mu_low", "mu", "mu_high"))
@@ -174,10 +174,13 @@ def test_parameters_are_held(scene, tmp_path):
     out = tmp_path / "fit.json"
     hold = ["--hold", "width=0.1,reference_velocity_m_s=6e-3", "--json", "--output", str(out)]
     assert main(["fit", str(path), str(measured), *hold]) == 0
-    found = json.loads(out.read_text())["inputs"][0]["found"]
-    assert (found["width"], found["reference_velocity_m_s"]) == (0.1, 6e-3)
-    assert (found["width_standard_error"], found["shear_stress_pa_standard_error"] > 0) == (0, True)
-    assert found["shear_stress_pa"] == pytest.approx(8.3e6, rel=0.05)
+    result = json.loads(out.read_text())["inputs"][0]["found"]
+    assert (result["width"], result["reference_velocity_m_s"]) == (0.1, 6e-3)
+    assert (result["width_standard_error"], result["shear_stress_pa_standard_error"] > 0) == (
+        0,
+        True,
+    )
+    assert result["shear_stress_pa"] == pytest.approx(8.3e6, rel=0.05)
 
 
 def test_an_adhesion_of_the_scene_gives_way_and_says_so(scene, tmp_path, capsys):
@@ -202,9 +205,9 @@ def test_units_are_those_of_the_columns_names(scene, tmp_path):
     german.write_text("velocity_m_s;mu\n0,001;0,5\n1e-2;1,25\n")
     comma = read_friction(german)
     assert (comma.velocity.tolist(), comma.mu.tolist()) == ([1e-3, 1e-2], [0.5, 1.25])
-    for found in (scaled, hourly):
-        np.testing.assert_allclose(found.velocity, plain.velocity, rtol=1e-8)
-        np.testing.assert_array_equal(found.mu, plain.mu)
+    for result in (scaled, hourly):
+        np.testing.assert_allclose(result.velocity, plain.velocity, rtol=1e-8)
+        np.testing.assert_array_equal(result.mu, plain.mu)
     np.testing.assert_allclose(scaled.pressure, plain.pressure, rtol=1e-8)
     assert hourly.pressure is None
 

@@ -67,13 +67,13 @@ def test_set_of_isotherms_to_a_table_that_a_scene_can_use(
     assert out == ""
     assert ("note: the shift factors follow WLF" in err) == follows
     assert ("note: the shift factors do not follow WLF" in err) == (not follows)
-    found = found_in(err)
+    result = found_in(err)
     if source == "measured":
-        assert found["wlf_residual_decades"] == pytest.approx(residual, rel=0.1)
-    assert (found["wlf_residual_decades"] < 0.05) == follows
-    assert found["prony_storage_residual"] < 0.03
+        assert result["wlf_residual_decades"] == pytest.approx(residual, rel=0.1)
+    assert (result["wlf_residual_decades"] < 0.05) == follows
+    assert result["prony_storage_residual"] < 0.03
     curve = read_master_curve(table)
-    ends = found["lowest_frequency_rad_s"], found["highest_frequency_rad_s"]
+    ends = result["lowest_frequency_rad_s"], result["highest_frequency_rad_s"]
     np.testing.assert_allclose(curve.angular_frequency[[0, -1]], ends, rtol=1e-5)
 
     scene = tmp_path / "scene.toml"
@@ -93,11 +93,11 @@ def test_files_of_one_temperature_each(tmp_path, capsys, source):
     assert main(["rubber", *files, *melt, *options]) == 0
     out, err = capsys.readouterr()
     assert "note: the shift factors follow WLF" in err
-    found = found_in(err)
-    assert found["reference_temperature_k"] == 273.15
+    result = found_in(err)
+    assert result["reference_temperature_k"] == 273.15
     # by the published law B1 / (B2 + 0 C) is 6.05, less what b_T leaves to the density
     c1 = {"made": 6.05, "measured": 5.8}[source]
-    assert found["wlf_c1"] == pytest.approx(c1, abs=0.1)
+    assert result["wlf_c1"] == pytest.approx(c1, abs=0.1)
     assert json.loads(out)["columns"]["storage_modulus_pa"]
 
 
@@ -118,9 +118,9 @@ def test_table_of_a_synthetic_rubber(folder, capsys):
     names = ("equilibrium_modulus_pa", "moduli_pa", "relaxation_times_s")
     series = [json.loads(header[f"prony.{name}"]) for name in names]
     prony = PronySeries(equilibrium_modulus=series[0], moduli=series[1], relaxation_times=series[2])
-    found = found_in(err)
-    assert found["wlf_c1"] == pytest.approx(8.86, abs=0.05)
-    w = np.geomspace(found["lowest_frequency_rad_s"], found["highest_frequency_rad_s"], 100)
+    result = found_in(err)
+    assert result["wlf_c1"] == pytest.approx(8.86, abs=0.05)
+    w = np.geomspace(result["lowest_frequency_rad_s"], result["highest_frequency_rad_s"], 100)
     assert np.abs(prony.modulus(w).real / true_modulus(w).real - 1).max() < 0.02
     assert np.abs(prony.modulus(w).imag / true_modulus(w).imag - 1).max() < 0.07
 
@@ -128,9 +128,9 @@ def test_table_of_a_synthetic_rubber(folder, capsys):
 def test_shift_factors_from_a_file(folder, capsys):
     options = ["--shift", "shift.csv", "--reference-temperature", "293.15", "--json"]
     assert main(["rubber", "dma.csv", *SYNTHETIC, *options]) == 0
-    found = found_in(capsys.readouterr().err)
-    assert found["wlf_c1"] == pytest.approx(8.86, rel=1e-6)
-    assert found["wlf_c2_k"] == pytest.approx(101.6, rel=1e-6)
+    result = found_in(capsys.readouterr().err)
+    assert result["wlf_c1"] == pytest.approx(8.86, rel=1e-6)
+    assert result["wlf_c2_k"] == pytest.approx(101.6, rel=1e-6)
 
 
 def without(option):

@@ -39,32 +39,32 @@ def test_reference(reference_table, rtol):
     for row in reference_table("partial_contact"):
         with case(case=row["case"], rtol=rtol):
             spectrum, rubber, conditions = parts(row)
-            found = asperity.friction(
+            result = asperity.friction(
                 spectrum, rubber, **conditions, correction=RULE, rtol=rtol, adhesion=None
             )
-            off = abs(found.hysteresis - row["hysteresis"])
-            assert off <= found.error_estimate + row["rtol"] * row["hysteresis"]
-            assert found.error_estimate <= rtol * found.mu
-            assert found.contact_area == pytest.approx(row["contact_area"], rel=rtol)
+            off = abs(result.hysteresis - row["hysteresis"])
+            assert off <= result.error_estimate + row["rtol"] * row["hysteresis"]
+            assert result.error_estimate <= rtol * result.mu
+            assert result.contact_area == pytest.approx(row["contact_area"], rel=rtol)
             area = asperity.contact_area(spectrum, rubber, **conditions, correction=RULE, rtol=rtol)
-            assert area == found.contact_area
+            assert area == result.contact_area
 
 
 def test_complete_contact_is_that_of_the_theory():
     for spectrum in (ROAD, SCAN):
         exact = asperity.friction(spectrum, RUBBER, pressure=1e11, velocity=[1e-4, 1], rtol=1e-11)
-        found = asperity.friction(
+        result = asperity.friction(
             spectrum, RUBBER, pressure=1e11, velocity=[1e-4, 1], correction=RULE, rtol=1e-11
         )
-        np.testing.assert_allclose(found.mu, exact.mu, rtol=1e-11)
-        assert np.all(found.contact_area == 1)
+        np.testing.assert_allclose(result.mu, exact.mu, rtol=1e-11)
+        assert np.all(result.contact_area == 1)
 
 
 def test_light_loads_have_an_area_in_proportion_to_them():
     # (1 - A1^(1/10))^3 goes to 1 slowly: the exponent comes to 1 from above
     pressure = 10.0 ** np.arange(-24, 2, 5.0)
-    found = asperity.friction(ROAD, RUBBER, pressure=pressure, velocity=0.1, correction=RULE)
-    exponent = np.diff(np.log(found.contact_area)) / np.diff(np.log(pressure))
+    result = asperity.friction(ROAD, RUBBER, pressure=pressure, velocity=0.1, correction=RULE)
+    exponent = np.diff(np.log(result.contact_area)) / np.diff(np.log(pressure))
     assert np.all(np.abs(exponent - 1) < 0.01)
     assert exponent[0] == pytest.approx(1, abs=2e-3)
 
@@ -81,14 +81,14 @@ def test_stress_is_at_most_that_of_complete_contact(spectrum):
 def test_area_at_a_wavenumber_has_the_kappa_of_the_whole_band(spectrum):
     scene = {"pressure": 2e5, "velocity": 0.01, "rtol": 1e-9}
     q = np.array([spectrum.q0, 5e3, 4e4, spectrum.q1])
-    found = asperity.contact_area(spectrum, RUBBER, **scene, correction=RULE, wavenumber=q)
+    result = asperity.contact_area(spectrum, RUBBER, **scene, correction=RULE, wavenumber=q)
     bare = asperity.contact_area(spectrum, RUBBER, **scene, wavenumber=q)
-    assert found[0] == 1
-    assert found[-1] == asperity.contact_area(spectrum, RUBBER, **scene, correction=RULE)
-    kappa = (erfinv(bare[1:]) / erfinv(found[1:])) ** 2  # A = erf(1 / (2 sqrt(kappa G)))
+    assert result[0] == 1
+    assert result[-1] == asperity.contact_area(spectrum, RUBBER, **scene, correction=RULE)
+    kappa = (erfinv(bare[1:]) / erfinv(result[1:])) ** 2  # A = erf(1 / (2 sqrt(kappa G)))
     np.testing.assert_allclose(kappa, kappa[-1], rtol=1e-7)
     pressure = asperity.mean_pressure(spectrum, RUBBER, **scene, correction=RULE, wavenumber=q)
-    np.testing.assert_allclose(pressure, 2e5 / found, rtol=1e-14)
+    np.testing.assert_allclose(pressure, 2e5 / result, rtol=1e-14)
 
 
 @pytest.mark.parametrize("pressure", [1e4, 1e6])
@@ -134,7 +134,7 @@ def _weights(mass):
 
 @pytest.mark.parametrize("spectrum", [ROAD, SCAN])
 def test_contributions_add_up_beyond_the_spectrum_too(spectrum):
-    found = asperity.friction(
+    result = asperity.friction(
         spectrum,
         RUBBER,
         pressure=2e5,
@@ -143,14 +143,14 @@ def test_contributions_add_up_beyond_the_spectrum_too(spectrum):
         contributions=True,
     )
     plain = asperity.friction(spectrum, RUBBER, pressure=2e5, velocity=[1e-3, 1.0], correction=RULE)
-    np.testing.assert_allclose(found.mu, plain.mu, rtol=2e-6)
-    np.testing.assert_allclose(found.decade_share.sum(axis=1), 1, rtol=1e-6)
-    y = np.log(found.wavenumber)
-    assert found.wavenumber[-1] == pytest.approx(33 * end_of_roughness(spectrum), rel=1e-4)
-    assert np.all(np.diff(found.wavenumber) > 0)
-    middle = (found.dmu_dlnq[:, 1:] + found.dmu_dlnq[:, :-1]) / 2
+    np.testing.assert_allclose(result.mu, plain.mu, rtol=2e-6)
+    np.testing.assert_allclose(result.decade_share.sum(axis=1), 1, rtol=1e-6)
+    y = np.log(result.wavenumber)
+    assert result.wavenumber[-1] == pytest.approx(33 * end_of_roughness(spectrum), rel=1e-4)
+    assert np.all(np.diff(result.wavenumber) > 0)
+    middle = (result.dmu_dlnq[:, 1:] + result.dmu_dlnq[:, :-1]) / 2
     rel = 5e-3 if spectrum is ROAD else 5e-2  # rows between the wavenumbers
-    np.testing.assert_allclose((middle * np.diff(y)).sum(axis=1), found.hysteresis, rtol=rel)
+    np.testing.assert_allclose((middle * np.diff(y)).sum(axis=1), result.hysteresis, rtol=rel)
 
 
 def test_order_and_neighbours_do_not_matter():
@@ -188,12 +188,12 @@ def test_model_error_is_known_where_exact_contacts_were_solved():
     light = asperity.friction(ROAD, RUBBER, **scene | {"pressure": 1.0}, correction=RULE)
     assert np.all(np.isnan(light.model_error))
     assert "unknown-model-error" in {note.code for note in light.notes}
-    found = asperity.friction(ROAD, RUBBER, **scene, correction=RULE)
+    result = asperity.friction(ROAD, RUBBER, **scene, correction=RULE)
     plain = asperity.friction(ROAD, RUBBER, **scene)
-    assert np.all((found.model_error > 0.01) & (found.model_error < 0.12))
-    assert np.all(plain.model_error > 2 * found.model_error)
+    assert np.all((result.model_error > 0.01) & (result.model_error < 0.12))
+    assert np.all(plain.model_error > 2 * result.model_error)
     of_area = asperity.contact_notes(ROAD, RUBBER, **scene, correction=RULE)
-    assert set(of_area) == set(found.notes)
+    assert set(of_area) == set(result.notes)
     for unknown in (asperity.AffineShift(2), asperity.SFactor(gamma=0.3)):
         other = asperity.friction(ROAD, RUBBER, **scene, correction=unknown)
         assert np.all(np.isnan(other.model_error))

@@ -51,13 +51,13 @@ def test_the_rule_has_one_root(count):
 def test_the_rule_has_one_root_where_faint_rows_are_stiff(scene, kind):
     # with T of I2(v q_e) and w(q_e) alone there are three, at G = 10^5.5 and 10^10, and areas jump
     # by 20 beside them: rows beyond q_e have nearly all of G, or q_e falls in a gap
-    found, q, c, rubber, velocity = random_roots.draw_parts(np.random.default_rng([1, scene]))
-    assert found == kind
+    result, q, c, rubber, velocity = random_roots.draw_parts(np.random.default_rng([1, scene]))
+    assert result == kind
     rule = random_roots.rule_of(q, c, rubber, velocity)
     loads = 10.0 ** np.arange(-2, 13, 0.5) / rule.g[-1]
-    found = [random_roots.scan(rule, load) for load in loads]
-    assert [len(roots) for roots, _, _ in found] == [1] * 30
-    assert min(slope for _, slope, _ in found) > 0.2
+    result = [random_roots.scan(rule, load) for load in loads]
+    assert [len(roots) for roots, _, _ in result] == [1] * 30
+    assert min(slope for _, slope, _ in result) > 0.2
     areas = asperity.contact_area(
         asperity.TabulatedSpectrum(wavenumber=q, density=c),
         rubber,
@@ -66,7 +66,7 @@ def test_the_rule_has_one_root_where_faint_rows_are_stiff(scene, kind):
         correction=RULE,
     )
     assert np.all(np.diff(np.log(areas)) > -1)  # loads fall by 10^(1/4) = e^0.58
-    kappa = np.exp([roots[0] for roots, _, _ in found])
+    kappa = np.exp([roots[0] for roots, _, _ in result])
     same = np.array(
         [
             random_roots.share_and_integral(k * g)[0]
@@ -99,8 +99,8 @@ def test_brute_force_meets_the_reference(reference_table):
         surface = partial_truth.Surface(row["table_wavenumber"], row["table_density"])
         truth = partial_truth.Truth(surface, rubber, row["velocity"], row["poisson_ratio"])
         with case(case=row["case"]):
-            found = truth.at(row["pressure"])
-            assert found == pytest.approx([row["hysteresis"], row["contact_area"]], rel=1e-11)
+            result = truth.at(row["pressure"])
+            assert result == pytest.approx([row["hysteresis"], row["contact_area"]], rel=1e-11)
 
 
 @pytest.mark.parametrize("count", [60, long(1500)])
@@ -139,5 +139,5 @@ def test_levels_of_rings_do_not_agree_by_chance_on_knots():
     }
     best = asperity.friction(rings, curve, **conditions, rtol=1e-9)
     for rtol in (1e-4, 1e-5, 1e-6, 1e-7):
-        found = asperity.friction(rings, curve, **conditions, rtol=rtol)
-        assert np.all(np.abs(found.mu - best.mu) <= found.error_estimate + best.error_estimate)
+        result = asperity.friction(rings, curve, **conditions, rtol=rtol)
+        assert np.all(np.abs(result.mu - best.mu) <= result.error_estimate + best.error_estimate)

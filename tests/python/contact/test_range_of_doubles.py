@@ -27,9 +27,9 @@ def deep_separation(load, peaks):
 @pytest.mark.parametrize("peaks", [None, [1e-4, 2e-4, 5e-5]])
 @pytest.mark.parametrize("load", [1e6, 1e20, 1e40, 1e200, 1e300])
 def test_asperities_deep_in_contact(load, peaks):
-    found = asperity.separation(pressure=load, effective_modulus=1.0, peaks=peaks, **MACRO)
+    result = asperity.separation(pressure=load, effective_modulus=1.0, peaks=peaks, **MACRO)
     # ln(load), up to 700, is known to 1e-16 of itself
-    assert found.effective == pytest.approx(float(deep_separation(load, peaks)), rel=1e-13)
+    assert result.effective == pytest.approx(float(deep_separation(load, peaks)), rel=1e-13)
 
 
 def test_a_gaussian_is_summed_by_its_moments_where_it_was_integrated_before():
@@ -42,9 +42,9 @@ def test_a_gaussian_is_summed_by_its_moments_where_it_was_integrated_before():
     stiffness = 2e3 / (3 * math.pi**2 * math.sqrt(3 * math.sqrt(2) * 1e-4))
     for t in (-99.9, -100.1):
         load = stiffness * 1e-6 * float(moment(mpmath.mpf(t)))
-        found = asperity.separation(pressure=load, effective_modulus=1.0, **MACRO)
+        result = asperity.separation(pressure=load, effective_modulus=1.0, **MACRO)
         # measured: 1.1e-14 of the integration, 7e-16 of the moments
-        assert found.effective == pytest.approx(t * 1e-4, rel=2e-14, abs=0)
+        assert result.effective == pytest.approx(t * 1e-4, rel=2e-14, abs=0)
 
 
 def separated(**changed):

@@ -107,10 +107,10 @@ def wholly_solved() -> asperity.ScanContact:
 
 def test_a_scan_that_is_short_for_its_longest_wave_says_how_many_it_holds() -> None:
     half = asperity.HeightMap(SCAN.heights[:, :32].copy(), pixel_size=SCAN.pixel_size)
-    found = asperity.friction(
+    result = asperity.friction(
         ROAD, RUBBER, pressure=2e5, velocity=0.1, correction=asperity.ScanContact(half)
     )
-    (note,) = (str(one) for one in found.notes if "longest waves" in str(one))
+    (note,) = (str(one) for one in result.notes if "longest waves" in str(one))
     assert note.startswith("the scan holds 2 of its longest waves to a side, where 4 or more")
     tiny = asperity.HeightMap(SCAN.heights[:9, :9].copy(), pixel_size=SCAN.pixel_size)
     with pytest.raises(asperity.InvalidInput) as caught:

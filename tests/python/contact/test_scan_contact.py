@@ -60,18 +60,18 @@ def truth(velocity: float, pressure: float = 2e5) -> Any:
 def test_it_is_exact_where_it_is_solved_and_near_to_it_between() -> None:
     assert SCAN.skewness < -0.7
     velocity = 1.37 * np.geomspace(1e-6, 1, 16)
-    found = friction(velocity)
+    result = friction(velocity)
     exact = [truth(v) for v in velocity]
     mu = np.array([c.hysteresis for c in exact])
     area = np.array([c.contact_area for c in exact])
-    assert found.mu == pytest.approx(mu, rel=0.02)
-    assert found.contact_area == pytest.approx(area, rel=0.02)
-    assert np.sqrt(np.mean((found.mu / mu - 1) ** 2)) < 0.006
+    assert result.mu == pytest.approx(mu, rel=0.02)
+    assert result.contact_area == pytest.approx(area, rel=0.02)
+    assert np.sqrt(np.mean((result.mu / mu - 1) ** 2)) < 0.006
     theory = friction(velocity, correction=asperity.PartialContact())
     assert np.abs(theory.mu / mu - 1).max() > 0.5
-    assert (found.model_error > np.abs(found.mu / mu - 1) / 2).all()
+    assert (result.model_error > np.abs(result.mu / mu - 1) / 2).all()
 
-    assert (friction(velocity, rtol=1e-4).error_estimate <= 1e-4 * found.mu).all()
+    assert (friction(velocity, rtol=1e-4).error_estimate <= 1e-4 * result.mu).all()
 
     table = EXACT.contacts.to_dataframe()
     here = table[(table.part == -1) & (table.coarse == 0) & (table.pressure == 2e5)]
@@ -84,13 +84,13 @@ def test_it_is_exact_where_it_is_solved_and_near_to_it_between() -> None:
 
 def test_each_error_stands_apart_in_its_contacts() -> None:
     anew = asperity.ScanContact(SCAN, periodic=True)
-    found = friction(0.013, correction=anew)
+    result = friction(0.013, correction=anew)
     table = anew.contacts.to_dataframe()
     parts = {name: table[name].dropna() for name in ("interpolation", "pixels", "scan", "joining")}
     assert {name: len(one) for name, one in parts.items()} == dict.fromkeys(parts, 1)
     [at] = parts["scan"].index
     together = np.hypot.reduce([*(one.iloc[0] for one in parts.values()), table.error[at]])
-    assert found.model_error == pytest.approx(together, rel=1e-12)
+    assert result.model_error == pytest.approx(together, rel=1e-12)
 
     # of one scan: half of the scatter of mu of its quarters
     quarters = table[(table.part >= 0) & (table.velocity == table.velocity[at])]
@@ -108,10 +108,10 @@ def test_a_steep_modulus_is_solved_at_every_node() -> None:
     steep = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[299e6], relaxation_times=[1e-3])
     anew = asperity.ScanContact(SCAN, periodic=True)
     velocity = 1.3 * np.geomspace(3e-3, 0.03, 3)
-    found = asperity.friction(SPECTRUM, steep, pressure=5e5, velocity=velocity, correction=anew)
+    result = asperity.friction(SPECTRUM, steep, pressure=5e5, velocity=velocity, correction=anew)
     assert anew.contacts.to_dataframe().error.max() <= 1e-4
     exact = [slide(SCAN, steep, pressure=5e5, velocity=v, periodic=True) for v in velocity]
-    assert found.mu == pytest.approx([c.hysteresis for c in exact], rel=0.02)
+    assert result.mu == pytest.approx([c.hysteresis for c in exact], rel=0.02)
 
 
 def test_digits_do_not_depend_on_order_threads_or_what_was_solved() -> None:
@@ -124,8 +124,8 @@ def test_digits_do_not_depend_on_order_threads_or_what_was_solved() -> None:
     assert friction(velocity, correction=threaded, threads=2).mu.tolist() == whole.mu.tolist()
     shared = asperity.ScanContact(SCAN, periodic=True)
     with ThreadPoolExecutor(2) as pool:
-        found = [*pool.map(lambda v: friction(v, correction=shared).mu, velocity)]
-    assert found == whole.mu.tolist()
+        result = [*pool.map(lambda v: friction(v, correction=shared).mu, velocity)]
+    assert result == whole.mu.tolist()
 
 
 def test_what_was_solved_is_kept_and_carried(tmp_path: Any) -> None:
@@ -159,10 +159,10 @@ def test_one_lattice_serves_all_temperatures() -> None:
 
 def test_a_rubber_without_loss_has_no_friction_and_the_exact_area() -> None:
     elastic = asperity.PronySeries(equilibrium_modulus=2e6, moduli=[], relaxation_times=[])
-    found = asperity.friction(SPECTRUM, elastic, pressure=2e5, velocity=1.0, correction=EXACT)
+    result = asperity.friction(SPECTRUM, elastic, pressure=2e5, velocity=1.0, correction=EXACT)
     exact = slide(SCAN, elastic, pressure=2e5, velocity=0.0, periodic=True, rtol=1e-5)
-    assert found.mu == 0
-    assert found.contact_area == pytest.approx(exact.contact_area, rel=1e-3)
+    assert result.mu == 0
+    assert result.contact_area == pytest.approx(exact.contact_area, rel=1e-3)
 
 
 def test_area_and_contributions() -> None:
@@ -172,10 +172,10 @@ def test_area_and_contributions() -> None:
     half = asperity.HeightMap(filtered(SCAN.heights, ROAD.q0, q), pixel_size=SCAN.pixel_size)
     exact = slide(half, RUBBER, pressure=2e5, velocity=0.1, periodic=True, rtol=1e-5)
     scene = {"pressure": 2e5, "velocity": 0.1, "correction": EXACT}
-    found = asperity.contact_area(SPECTRUM, RUBBER, wavenumber=[ROAD.q0, q, ROAD.q1], **scene)
-    assert found[0] == 1
-    assert found[1] == pytest.approx(exact.contact_area, rel=0.03)
-    assert found[2] == area
+    result = asperity.contact_area(SPECTRUM, RUBBER, wavenumber=[ROAD.q0, q, ROAD.q1], **scene)
+    assert result[0] == 1
+    assert result[1] == pytest.approx(exact.contact_area, rel=0.03)
+    assert result[2] == area
 
     parts = friction(0.1, contributions=True)
     density = np.trapezoid(parts.dmu_dlnq, np.log(parts.wavenumber))
@@ -198,9 +198,9 @@ def test_beyond_the_map_the_theory_goes_on() -> None:
     )
     scene = {"pressure": 2e5, "velocity": 1e-3, "correction": EXACT}
     # the scan knows waves of two pixels and longer
-    found = asperity.friction(longer, RUBBER, **scene)
+    result = asperity.friction(longer, RUBBER, **scene)
     inside = asperity.friction(longer.truncated(q1=np.pi * 256 / LENGTH), RUBBER, **scene)
-    assert found.contact_area < inside.contact_area
+    assert result.contact_area < inside.contact_area
 
 
 def test_a_scan_with_edges_drop_outs_and_a_tilt() -> None:
@@ -211,12 +211,12 @@ def test_a_scan_with_edges_drop_outs_and_a_tilt() -> None:
     cut[5, 7:9] = np.nan
     part = asperity.HeightMap(cut, pixel_size=whole.pixel_size)
     scene = {"pressure": 2e5, "velocity": np.geomspace(1e-4, 0.1, 4)}
-    found = asperity.friction(spectrum, RUBBER, correction=asperity.ScanContact(part), **scene)
+    result = asperity.friction(spectrum, RUBBER, correction=asperity.ScanContact(part), **scene)
     exact = asperity.friction(
         spectrum, RUBBER, correction=asperity.ScanContact(whole, periodic=True), **scene
     )
-    assert found.mu == pytest.approx(exact.mu, rel=0.1)
-    assert (np.abs(found.mu / exact.mu - 1) < 3 * found.model_error).all()
+    assert result.mu == pytest.approx(exact.mu, rel=0.1)
+    assert (np.abs(result.mu / exact.mu - 1) < 3 * result.model_error).all()
 
 
 def large(n: int = 1280) -> tuple[asperity.HeightMap, asperity.TabulatedSpectrum]:
@@ -236,11 +236,11 @@ def test_a_scan_that_one_grid_does_not_hold_has_its_short_waves_from_pieces() ->
     scene = {"pressure": 2e5, "velocity": 1.0}
     exact = slide(scan, elastic, pressure=2e5, velocity=0.0, periodic=True, rtol=1e-4)
     split = asperity.ScanContact(scan, periodic=True)
-    found = asperity.friction(spectrum, elastic, correction=split, **scene)
-    assert found.contact_area == pytest.approx(exact.contact_area, rel=0.05)
+    result = asperity.friction(spectrum, elastic, correction=split, **scene)
+    assert result.contact_area == pytest.approx(exact.contact_area, rel=0.05)
     rule = asperity.friction(spectrum, elastic, correction=asperity.PartialContact(), **scene)
     assert rule.contact_area < 0.8 * exact.contact_area
-    assert any("solved on four pieces" in str(note) for note in found.notes)
+    assert any("solved on four pieces" in str(note) for note in result.notes)
     rows = split.contacts.to_dataframe()
     assert set(rows.part) == {-1, *range(12)}
     assert (rows.points_x * rows.points_y).max() <= 520**2
@@ -248,20 +248,20 @@ def test_a_scan_that_one_grid_does_not_hold_has_its_short_waves_from_pieces() ->
     # pieces that hold the longest waves need no whole scan
     short = spectrum.truncated(q0=spectrum.q1 / 3)
     alone = asperity.ScanContact(scan, periodic=True)
-    found = asperity.friction(short, elastic, correction=alone, **scene)
+    result = asperity.friction(short, elastic, correction=alone, **scene)
     assert set(alone.contacts.to_dataframe().part) == {4, 5, 6, 7}
-    assert found.contact_area > 0.1
+    assert result.contact_area > 0.1
 
 
 def test_many_pressures_are_asked_on_a_lattice() -> None:
     anew = asperity.ScanContact(SCAN, periodic=True)
     pressure = np.geomspace(1e5, 4e5, 20)
-    found = friction(0.01, pressure=pressure, correction=anew)
+    result = friction(0.01, pressure=pressure, correction=anew)
     loads = np.unique(anew.contacts.to_dataframe().pressure)
     assert len(loads) <= 8
     for i in (3, 12):
         exact = truth(0.01, pressure[i])
-        assert found.mu[i] == pytest.approx(exact.hysteresis, rel=0.02)
+        assert result.mu[i] == pytest.approx(exact.hysteresis, rel=0.02)
 
 
 LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
@@ -312,8 +312,8 @@ def test_a_map_of_it_is_certified_against_friction() -> None:
     fmap = asperity.friction_map(SPECTRUM, RUBBER, rtol=1e-2, checked=1000, **scene)
     rng = np.random.default_rng(5)
     p, v = 1e5 * 4 ** rng.random(50), 1e-2 * 10 ** rng.random(50)
-    found = friction(v, pressure=p)
-    assert (np.abs(fmap.mu(p, v) / found.mu - 1) <= fmap.max_error).all()
+    result = friction(v, pressure=p)
+    assert (np.abs(fmap.mu(p, v) / result.mu - 1) <= fmap.max_error).all()
 
 
 def test_a_scene_takes_its_own_scan(tmp_path: Any) -> None:

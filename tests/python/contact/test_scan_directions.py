@@ -40,7 +40,7 @@ def test_a_node_is_that_of_slide(degrees: float) -> None:
     table = EXACT.contacts.to_dataframe()
     here = table[(table.direction == direction) & (table.part == -1) & (table.coarse == 0)]
     row = here.iloc[len(here) // 2]
-    found = friction(direction, velocity=row.velocity)
+    result = friction(direction, velocity=row.velocity)
     truth = slide(
         SCAN,
         RUBBER,
@@ -50,9 +50,9 @@ def test_a_node_is_that_of_slide(degrees: float) -> None:
         periodic=True,
         rtol=1e-5,
     )
-    assert found.mu == pytest.approx(truth.hysteresis, rel=1e-3)
-    assert found.lateral == pytest.approx(truth.lateral, abs=1e-3 * truth.hysteresis)
-    assert found.lateral == pytest.approx(row.lateral, abs=1e-12)
+    assert result.mu == pytest.approx(truth.hysteresis, rel=1e-3)
+    assert result.lateral == pytest.approx(truth.lateral, abs=1e-3 * truth.hysteresis)
+    assert result.lateral == pytest.approx(row.lateral, abs=1e-12)
 
     exact = slide(SCAN, RUBBER, **AT, direction=direction, periodic=True)
     assert between.mu == pytest.approx(exact.hysteresis, rel=0.02)
@@ -69,16 +69,16 @@ def test_a_turned_scan_is_a_turned_direction() -> None:
 
 
 def test_the_scan_knows_directions_whatever_the_spectrum_does() -> None:
-    found = friction([0.3, 1.1])
-    assert found.direction.tolist() == [0.3, 1.1]
+    result = friction([0.3, 1.1])
+    assert result.direction.tolist() == [0.3, 1.1]
     for spectrum in (asperity.power_spectrum(SCAN, window="none", detrend=None, directional=True),):
         kept = spectrum.truncated(q0=ROAD.q0, q1=ROAD.q1)
         assert kept.is_directional
         same = friction([0.3, 1.1], spectrum=kept)
-        np.testing.assert_array_equal(same.mu, found.mu)
-        np.testing.assert_array_equal(same.lateral, found.lateral)
+        np.testing.assert_array_equal(same.mu, result.mu)
+        np.testing.assert_array_equal(same.lateral, result.lateral)
     area = asperity.contact_area(RINGS, RUBBER, **AT, correction=EXACT, direction=0.3)
-    assert area == found.contact_area[0]
+    assert area == result.contact_area[0]
     # along the ridges and across
     along, across = friction(np.radians([20, 110])).mu
     assert along < 0.7 * across

@@ -66,9 +66,9 @@ def test_the_error_estimate_is_kept_on_steep_rings(rows, octaves, power, pressur
     steep = steep.scaled((0.5 / steep.rms_slope) ** 2)
     rubber = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
     scene = {"pressure": pressure, "velocity": velocity}
-    found = asperity.friction(steep, rubber, **scene, rtol=rtol)
+    result = asperity.friction(steep, rubber, **scene, rtol=rtol)
     truth = asperity.friction(steep, rubber, **scene, rtol=1e-11, method="cquad")
-    assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
+    assert abs(result.mu - truth.mu) <= result.error_estimate + truth.error_estimate
 
 
 def test_a_polynomial_below_zero_is_not_taken_for_g():
@@ -81,9 +81,9 @@ def test_a_polynomial_below_zero_is_not_taken_for_g():
         angular_frequency=frequency, storage_modulus=storage, loss_modulus=0.2 * storage
     )
     scene = {"pressure": 1e3, "velocity": 1}
-    found = asperity.friction(steep, rubber, **scene, rtol=1e-3)
+    result = asperity.friction(steep, rubber, **scene, rtol=1e-3)
     truth = asperity.friction(steep, rubber, **scene, rtol=1e-9, method="cquad")
-    assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
+    assert abs(result.mu - truth.mu) <= result.error_estimate + truth.error_estimate
 
 
 @pytest.mark.parametrize(
@@ -136,14 +136,14 @@ ONE_TERM = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxatio
 def test_the_error_estimate_is_kept_on_a_front(wavenumber, density, pressure, velocity, form, rtol):
     surface = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=density)
     options = {"pressure": pressure, "velocity": velocity, "form": form}
-    found = asperity.friction(surface, ONE_TERM, rtol=rtol, **options)
+    result = asperity.friction(surface, ONE_TERM, rtol=rtol, **options)
     exact = truth.contact(
         truth.table(wavenumber, density), INTEGRALS, pressure, velocity, form=form
     )
     rounding = 1e-14 * exact.mu
-    assert abs(found.mu - exact.mu) <= found.error_estimate + rounding
-    assert found.error_estimate <= rtol * found.mu
-    assert found.contact_area == pytest.approx(exact.area, rel=rtol)
+    assert abs(result.mu - exact.mu) <= result.error_estimate + rounding
+    assert result.error_estimate <= rtol * result.mu
+    assert result.contact_area == pytest.approx(exact.area, rel=rtol)
     # and part of the way along the front, where the area is all but one
     middle = wavenumber[0] * (wavenumber[1] / wavenumber[0]) ** np.array([1e-3, 0.1, 0.7])
     for q in middle:
@@ -194,8 +194,8 @@ def test_the_error_estimate_is_kept_where_the_contact_is_whole():
     options = {"pressure": 5.75e7, "velocity": 0.0217, "poisson_ratio": 0.27}
     rubber = asperity.PronySeries(equilibrium_modulus=1.66e6, moduli=moduli, relaxation_times=times)
     surface = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=density)
-    found = asperity.friction(surface, rubber, rtol=6e-3, **options)
+    result = asperity.friction(surface, rubber, rtol=6e-3, **options)
     integrals = truth.prony(1.66e6, moduli, times)
     exact = truth.contact(truth.table(wavenumber, density), integrals, **options)
     assert exact.g < 0.007  # P is 1 to rounding
-    assert abs(found.mu - exact.mu) <= found.error_estimate
+    assert abs(result.mu - exact.mu) <= result.error_estimate

@@ -26,12 +26,12 @@ def scene(row):
 @pytest.mark.parametrize("rtol", [1e-4, 1e-7])
 @pytest.mark.parametrize("kind", KINDS)
 def test_reference(row, kind, rtol):
-    found = asperity.friction(**scene(row), correction=KINDS[kind], rtol=rtol)
-    off = abs(found.hysteresis - row["hysteresis" + kind])
-    assert off <= found.error_estimate + row["rtol"] * found.hysteresis
-    assert found.error_estimate <= rtol * found.mu
+    result = asperity.friction(**scene(row), correction=KINDS[kind], rtol=rtol)
+    off = abs(result.hysteresis - row["hysteresis" + kind])
+    assert off <= result.error_estimate + row["rtol"] * result.hysteresis
+    assert result.error_estimate <= rtol * result.mu
     area = row["area_partial" if kind == "_partial" else "area"]
-    assert found.contact_area == pytest.approx(area, rel=rtol)
+    assert result.contact_area == pytest.approx(area, rel=rtol)
 
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5)
@@ -59,9 +59,9 @@ def constant(f, g):
 def test_factors_of_one_change_no_bit(spectrum, rubber, kind):
     ones = StrainFactors(strain=[0.1, 0.5, 90, 99], storage=[1, 1, 1, 9], loss=[1, 1, 1, 0.1])
     plain = asperity.friction(spectrum, rubber, **POINTS, correction=kind)
-    found = asperity.friction(spectrum, rubber, **POINTS, correction=kind, strain_factors=ones)
+    result = asperity.friction(spectrum, rubber, **POINTS, correction=kind, strain_factors=ones)
     for name in ("mu", "contact_area", "error_estimate"):
-        assert np.array_equal(getattr(found, name), getattr(plain, name))
+        assert np.array_equal(getattr(result, name), getattr(plain, name))
 
 
 @pytest.mark.parametrize("kind", KINDS.values())
@@ -72,40 +72,40 @@ def test_constant_factors_are_another_rubber(spectrum, kind):
         angular_frequency=W, storage_modulus=f * E.real, loss_modulus=g * E.imag
     )
     expected = asperity.friction(spectrum, scaled, **POINTS, correction=kind)
-    found = asperity.friction(
+    result = asperity.friction(
         spectrum, CURVE, **POINTS, correction=kind, strain_factors=constant(f, g)
     )
-    np.testing.assert_allclose(found.mu, expected.mu, rtol=2e-6)
-    np.testing.assert_allclose(found.contact_area, expected.contact_area, rtol=2e-6)
+    np.testing.assert_allclose(result.mu, expected.mu, rtol=2e-6)
+    np.testing.assert_allclose(result.contact_area, expected.contact_area, rtol=2e-6)
 
 
 def test_a_soft_rubber_is_a_higher_load():
     # f = g = c: G and the areas are those at the pressure over c
     c = 0.5
     load = asperity.friction(ROAD, SERIES, pressure=1e5 / c, velocity=POINTS["velocity"])
-    found = asperity.friction(
+    result = asperity.friction(
         ROAD, SERIES, pressure=1e5, velocity=POINTS["velocity"], strain_factors=constant(c, c)
     )
-    np.testing.assert_allclose(found.mu, load.mu, rtol=2e-6)
-    np.testing.assert_allclose(found.contact_area, load.contact_area, rtol=2e-6)
+    np.testing.assert_allclose(result.mu, load.mu, rtol=2e-6)
+    np.testing.assert_allclose(result.contact_area, load.contact_area, rtol=2e-6)
 
 
 @pytest.mark.parametrize("rubber", [SERIES, CURVE])
 def test_gsl_agrees(rubber):
     scene = {"pressure": 1e5, "velocity": 1e-2, "strain_factors": PAYNE}
-    found = asperity.friction(ROAD, rubber, **scene, rtol=1e-6)
+    result = asperity.friction(ROAD, rubber, **scene, rtol=1e-6)
     check = asperity.friction(ROAD, rubber, **scene, rtol=1e-6, method="qag")
-    assert found.mu == pytest.approx(check.mu, rel=2e-6)
+    assert result.mu == pytest.approx(check.mu, rel=2e-6)
 
 
 @pytest.mark.parametrize("kind", KINDS.values())
 def test_parts_sum_to_the_whole(kind):
-    found = asperity.friction(
+    result = asperity.friction(
         ROAD, SERIES, **POINTS, correction=kind, strain_factors=PAYNE, contributions=True
     )
-    np.testing.assert_allclose(found.decade_share.sum(axis=-1), 1, rtol=1e-6)
-    whole = np.trapezoid(found.dmu_dlnq, np.log(found.wavenumber), axis=-1)
-    np.testing.assert_allclose(whole, found.hysteresis, rtol=5e-3)  # of the trapezoids
+    np.testing.assert_allclose(result.decade_share.sum(axis=-1), 1, rtol=1e-6)
+    whole = np.trapezoid(result.dmu_dlnq, np.log(result.wavenumber), axis=-1)
+    np.testing.assert_allclose(whole, result.hysteresis, rtol=5e-3)  # of the trapezoids
 
 
 @pytest.mark.parametrize(
@@ -145,12 +145,12 @@ def test_exact_contacts_of_a_scan_soften_too():
     solved(SERIES, kind=both)
     kept = len(both.contacts)
     assert (both.contacts.to_dataframe()["strain"] == 0).all()
-    found, expected, plain = solved(SERIES, constant(0.5, 0.5), both), solved(half), solved(SERIES)
+    result, expected, plain = solved(SERIES, constant(0.5, 0.5), both), solved(half), solved(SERIES)
     table = both.contacts.to_dataframe()  # of the same rubber, with and without
     assert table["rubber"].nunique() == 1
     assert (table["strain"] != 0).sum() == len(table) - kept > 0
-    assert found.mu == pytest.approx(expected.mu, rel=1e-6)
-    assert found.contact_area == pytest.approx(expected.contact_area, rel=1e-6)
+    assert result.mu == pytest.approx(expected.mu, rel=1e-6)
+    assert result.contact_area == pytest.approx(expected.contact_area, rel=1e-6)
     assert solved(SERIES, constant(1, 1)).mu == plain.mu
     # exact contact and the rule soften alike
     soft = solved(SERIES, PAYNE)

@@ -36,10 +36,10 @@ def area(spectrum=ROAD, rubber=RUBBER, **options):
 
 def smooth(value, at, steepest=2.0, noise=1e-12):
     """That ln value follows ln x as a line through its ends does, within `noise`."""
-    found = np.log([value(at * (1 + step)) for step in STEPS])
-    assert abs(found[-1] - found[0]) <= steepest * (STEPS[-1] - STEPS[0]) + noise
-    line = found[0] + (found[-1] - found[0]) * (STEPS - STEPS[0]) / (STEPS[-1] - STEPS[0])
-    np.testing.assert_allclose(found, line, rtol=0, atol=noise)
+    result = np.log([value(at * (1 + step)) for step in STEPS])
+    assert abs(result[-1] - result[0]) <= steepest * (STEPS[-1] - STEPS[0]) + noise
+    line = result[0] + (result[-1] - result[0]) * (STEPS - STEPS[0]) / (STEPS[-1] - STEPS[0])
+    np.testing.assert_allclose(result, line, rtol=0, atol=noise)
 
 
 def pressure_of(g, form="exact"):
@@ -90,9 +90,9 @@ def test_gamma_of_one_is_no_correction(value):
 def test_tolerances_at_which_the_nodes_change(rubber, pressure):
     best = mu(rubber=rubber, pressure=pressure, rtol=1e-10)
     for rtol in np.geomspace(1e-10, 0.1, 91):
-        found = asperity.friction(ROAD, rubber, pressure=pressure, velocity=1e-2, rtol=rtol)
-        assert abs(found.mu - best) <= found.error_estimate + 1e-10 * best
-        assert found.error_estimate <= rtol * found.mu
+        result = asperity.friction(ROAD, rubber, pressure=pressure, velocity=1e-2, rtol=rtol)
+        assert abs(result.mu - best) <= result.error_estimate + 1e-10 * best
+        assert result.error_estimate <= rtol * result.mu
 
 
 def test_a_rubber_without_terms_and_with_a_trace_of_one():
@@ -186,20 +186,20 @@ def test_separations_where_the_moments_take_over(t, peaks):
     load = stiffness * (max(-t, 1) ** 1.5 if t < 0 else math.exp(-t * t / 2))
 
     def gap(x):
-        found = asperity.separation(
+        result = asperity.separation(
             pressure=x, effective_modulus=1.0, rms_height=1e-4, q0=1e3, peaks=peaks
         )
-        return 1e-3 - found.effective  # below a plane ten rms heights up
+        return 1e-3 - result.effective  # below a plane ten rms heights up
 
     smooth(gap, load, steepest=1.0, noise=1e-13)
 
 
 def separation(pressure):
     modulus = abs(RUBBER.modulus(BAND["q0"] * 1e-2)) / 0.75
-    found = asperity.separation(
+    result = asperity.separation(
         pressure=pressure, effective_modulus=modulus, rms_height=BAND["rms_height"], q0=BAND["q0"]
     )
-    return found.effective
+    return result.effective
 
 
 def shifted(pressure, z_max, z_min, rtol):
@@ -219,9 +219,9 @@ def test_igw_out_of_contact():
     # p_T grows without end, and mu falls as 1 / p^2
     d = separation(10.0)
     assert d > 0
-    found = [shifted(10.0, d * (1 + step), -1e-4, 1e-4) for step in (1e-3, 1e-5, 1e-7, -1e-7)]
-    assert found[0] > found[1] > found[2] > found[3] == 0
-    assert found[2] < 1e-6
+    result = [shifted(10.0, d * (1 + step), -1e-4, 1e-4) for step in (1e-3, 1e-5, 1e-7, -1e-7)]
+    assert result[0] > result[1] > result[2] > result[3] == 0
+    assert result[2] < 1e-6
 
 
 def test_a_row_of_zeros_beside_rows_of_one_density():

@@ -131,6 +131,6 @@ def test_isotropic_autocorrelation_is_that_of_a_large_map():
     r = np.arange(0, 60) * side / n
     # along one axis, over all modes of the map
     direct = [np.sum(c * np.cos(q * x)) * 500**2 for x in r]
-    found = spectrum.autocorrelation(r)
-    np.testing.assert_allclose(found, direct, atol=0.02 * spectrum.rms_height**2)
-    assert found[0] == pytest.approx(spectrum.rms_height**2, rel=1e-8, abs=0)
+    result = spectrum.autocorrelation(r)
+    np.testing.assert_allclose(result, direct, atol=0.02 * spectrum.rms_height**2)
+    assert result[0] == pytest.approx(spectrum.rms_height**2, rel=1e-8, abs=0)

@@ -75,9 +75,9 @@ def test_three_and_ten_percent_noise(noise, shift, storage, loss):
         prony = fit_prony(build)
         assert prony.causal
         w = np.geomspace(*build.master_curve.angular_frequency[[0, -1]], 300)
-        found, right = prony.modulus(w), true_modulus(w)
-        assert np.abs(found.real / right.real - 1).max() < storage
-        assert np.abs(found.imag / right.imag - 1).max() < loss
+        result, right = prony.modulus(w), true_modulus(w)
+        assert np.abs(result.real / right.real - 1).max() < storage
+        assert np.abs(result.imag / right.imag - 1).max() < loss
 
 
 def acausal(isotherms):

@@ -77,9 +77,9 @@ def test_a_scene_goes_beyond_the_fitted_frequencies_when_asked_by_name(files: li
 
     with pytest.raises(asperity.OutOfRange, match=r'extrapolation.*"prony"'):
         compute("prony = true")
-    found = compute("prony = true", 'extrapolation = "prony"')
-    assert any("outside of the measured ones" in note for note in found.notes)
-    assert any("beyond the frequencies that it was fitted on" in note for note in found.notes)
+    result = compute("prony = true", 'extrapolation = "prony"')
+    assert any("outside of the measured ones" in note for note in result.notes)
+    assert any("beyond the frequencies that it was fitted on" in note for note in result.notes)
     for extrapolation in ("power-law", "clamp"):
         with pytest.raises(
             asperity.InvalidInput, match=rf'extrapolation = {extrapolation}: .*"prony"'

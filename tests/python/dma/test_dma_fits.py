@@ -45,8 +45,8 @@ def test_wlf_fit_is_the_least_squares_one(row):
 def test_arrhenius_fit_is_the_least_squares_one(row):
     fit, rtol = table(row).fit_arrhenius(), float(row["rtol"])
     assert fit.activation_energy == pytest.approx(float(row["activation_energy"]), rel=rtol)
-    found = fit.standard_errors["activation_energy"]
-    assert found == pytest.approx(float(row["activation_energy_error"]), rel=100 * rtol)
+    result = fit.standard_errors["activation_energy"]
+    assert result == pytest.approx(float(row["activation_energy_error"]), rel=100 * rtol)
     assert fit.residual == pytest.approx(float(row["arrhenius_residual"]), rel=100 * rtol)
 
 
@@ -102,8 +102,8 @@ def test_a_temperature_outside_of_the_table(outside):
 def test_shift_factors_between_the_isotherms():
     build = built(sweeps())
     between = np.linspace(243.15, 348.15, 60)
-    found = np.log10(build.shift_factor(between.reshape(6, 10)))
-    np.testing.assert_allclose(found.ravel(), true_shift(between), atol=0.02)
+    result = np.log10(build.shift_factor(between.reshape(6, 10)))
+    np.testing.assert_allclose(result.ravel(), true_shift(between), atol=0.02)
     rubber = PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
     cold = rubber.shifted(build.shift_factor(273.15))
     expected = rubber.modulus(10 ** true_shift(273.15) * 50)
@@ -130,16 +130,16 @@ FIVE = np.linspace(273.15, 313.15, 5)
 def stated_over_scatter(fits):
     """Of c1 and c2 of WLF and of E_a: stated variance over the variance that they have."""
     wlf, arrhenius = zip(*fits, strict=True)
-    found = [
+    result = [
         ([getattr(f, n) for f in wlf], [f.standard_errors[n] for f in wlf]) for n in ("c1", "c2")
     ]
-    found.append(
+    result.append(
         (
             [f.activation_energy for f in arrhenius],
             [f.standard_errors["activation_energy"] for f in arrhenius],
         )
     )
-    return np.array([np.sqrt(np.mean(np.square(error))) / np.std(value) for value, error in found])
+    return np.array([np.sqrt(np.mean(np.square(error))) / np.std(value) for value, error in result])
 
 
 def test_stated_errors_of_laws_are_their_scatter():
@@ -147,13 +147,13 @@ def test_stated_errors_of_laws_are_their_scatter():
     rng = np.random.default_rng(8)
 
     def fits():
-        found = []
+        result = []
         for law in (true_shift(FIVE), 5e3 * (1 / FIVE - 1 / T_REF)):
             scattered = law + 1e-3 * rng.standard_normal(5)
             scattered[2] = 0
             table = ShiftFactors(reference_temperature=T_REF, temperature=FIVE, log10_a_T=scattered)
-            found.append(table)
-        return found[0].fit_wlf(), found[1].fit_arrhenius()
+            result.append(table)
+        return result[0].fit_wlf(), result[1].fit_arrhenius()
 
     ratio = stated_over_scatter([fits() for _ in range(2000)])
     np.testing.assert_allclose(ratio, 1, atol=0.06)  # before: 0.82, 0.82 and 0.87

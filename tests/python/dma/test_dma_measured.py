@@ -60,9 +60,9 @@ def test_prony_series_of_a_measured_rubber():
     assert prony.causal
     assert prony.storage_residual < 0.03
     assert prony.loss_residual < 0.03
-    found = prony.modulus(build.points.angular_frequency)
-    assert np.sqrt(np.mean(np.log(found.real / build.points.storage_modulus) ** 2)) < 0.06
-    assert np.sqrt(np.mean(np.log(found.imag / build.points.loss_modulus) ** 2)) < 0.06
+    result = prony.modulus(build.points.angular_frequency)
+    assert np.sqrt(np.mean(np.log(result.real / build.points.storage_modulus) ** 2)) < 0.06
+    assert np.sqrt(np.mean(np.log(result.imag / build.points.loss_modulus) ** 2)) < 0.06
 
 
 @pytest.mark.parametrize("name", ["material_a", "epdm_70"])

@@ -181,13 +181,13 @@ def isotherm(**changed):
 
 
 def test_points_within_one_percent_are_averaged_in_the_logarithm_and_said():
-    found = isotherm(
+    result = isotherm(
         angular_frequency=[1.0, 2, 4, 2.019, 16], loss_modulus=[1e5, 1e5, 1e5, 4e5, 1e5]
     )
-    np.testing.assert_allclose(found.angular_frequency, [1, (2 * 2.019) ** 0.5, 4, 16])
-    np.testing.assert_allclose(found.storage_modulus, [1e6, 8e12**0.5, 3e6, 5e6])
-    np.testing.assert_allclose(found.loss_modulus, [1e5, 2e5, 1e5, 1e5])
-    (note,) = found.notes
+    np.testing.assert_allclose(result.angular_frequency, [1, (2 * 2.019) ** 0.5, 4, 16])
+    np.testing.assert_allclose(result.storage_modulus, [1e6, 8e12**0.5, 3e6, 5e6])
+    np.testing.assert_allclose(result.loss_modulus, [1e5, 2e5, 1e5, 1e5])
+    (note,) = result.notes
     assert note.startswith("isotherm at 300 K: rows 1, 3 lie within 1 % of 2.009 rad/s")
     assert isotherm(angular_frequency=[1.0, 2, 4, 2.021, 16]).notes == ()
 
@@ -198,9 +198,9 @@ def test_points_that_are_one_do_not_make_four():
 
 
 def test_frequencies_in_any_order():
-    found = isotherm(angular_frequency=[16.0, 8, 4, 2, 1])
-    np.testing.assert_array_equal(found.angular_frequency, [1, 2, 4, 8, 16])
-    np.testing.assert_array_equal(found.storage_modulus, [5e6, 4e6, 3e6, 2e6, 1e6])
+    result = isotherm(angular_frequency=[16.0, 8, 4, 2, 1])
+    np.testing.assert_array_equal(result.angular_frequency, [1, 2, 4, 8, 16])
+    np.testing.assert_array_equal(result.storage_modulus, [5e6, 4e6, 3e6, 2e6, 1e6])
 
 
 def test_a_sweep_of_strain(tmp_path):

@@ -37,9 +37,9 @@ def test_from_noisy_isotherms_to_a_prony_series(seed):
     assert prony.causal
     ends = build.master_curve.angular_frequency[[0, -1]]
     w = np.geomspace(*ends, 500)
-    found, truth = prony.modulus(w), true_modulus(w)
-    assert np.abs(found.real / truth.real - 1).max() < 0.02
-    assert np.abs(found.imag / truth.imag - 1).max() < 0.07
+    result, truth = prony.modulus(w), true_modulus(w)
+    assert np.abs(result.real / truth.real - 1).max() < 0.02
+    assert np.abs(result.imag / truth.imag - 1).max() < 0.07
 
 
 def test_standard_deviations_are_the_scatter_of_the_shift_factors():

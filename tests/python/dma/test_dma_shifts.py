@@ -133,9 +133,9 @@ def test_draws_have_the_covariance_of_the_build():
     drawn = np.array([draw_master_curve(build, seed).log10_a_T for seed in range(400)])
     moved = build.standard_deviation > 0
     scale = np.outer(build.standard_deviation[moved], build.standard_deviation[moved])
-    found = np.cov((drawn - build.log10_a_T)[:, moved].T) / scale
+    result = np.cov((drawn - build.log10_a_T)[:, moved].T) / scale
     truth = build.covariance[np.ix_(moved, moved)] / scale
-    np.testing.assert_allclose(found, truth, atol=0.3)  # four times 1.4 / sqrt(400)
+    np.testing.assert_allclose(result, truth, atol=0.3)  # four times 1.4 / sqrt(400)
     np.testing.assert_allclose(drawn[:, ~moved], 0, atol=1e-15)
 
 
@@ -143,14 +143,14 @@ def test_draws_of_the_modulus_scatter_as_the_spline_does():
     """About the truth, builds of other noise; about a build, its draws."""
     w = np.geomspace(1e-3, 1e8, 12)
     builds = [built(sweeps(noise=0.02, seed=seed), smooth=True) for seed in range(40)]
-    found = np.array([np.log(b.master_curve.modulus(w) / true_modulus(w).real) for b in builds])
+    result = np.array([np.log(b.master_curve.modulus(w) / true_modulus(w).real) for b in builds])
     truth = np.log(true_modulus(w) / true_modulus(w).real)
     curves = [draw_master_curve(builds[0], seed).master_curve for seed in range(200)]
     drawn = np.array(
         [np.log(c.modulus(w) / builds[0].master_curve.modulus(w).real) for c in curves]
     )
     for part in (np.real, np.imag):
-        scatter = np.sqrt(np.mean(part(found - truth) ** 2))
+        scatter = np.sqrt(np.mean(part(result - truth) ** 2))
         assert np.sqrt(np.mean(part(drawn - drawn.mean(axis=0)).var(axis=0))) == pytest.approx(
             scatter, rel=0.35
         )

@@ -78,9 +78,9 @@ def test_a_host_in_c_gets_the_digits_of_the_map(files, c_host, asked, answers, t
     address = resources.as_uri() if fmi == "2.0" else f"{resources}/"
     library = tmp_path / "binaries" / folder / "friction.so"
     command = [c_host, library, address, fmi[0], token(tmp_path)]
-    found = subprocess.run(command, input=asked, capture_output=True, text=True, check=True)
-    assert found.stdout == answers
-    assert found.stderr.count("outside of the map") == 1  # said once
+    result = subprocess.run(command, input=asked, capture_output=True, text=True, check=True)
+    assert result.stdout == answers
+    assert result.stderr.count("outside of the map") == 1  # said once
     other = subprocess.run([*command[:-1], "{another}"], capture_output=True, text=True)
     assert other.returncode == 1
     assert '"{another}" is that of another FMU' in other.stderr
@@ -102,8 +102,8 @@ def test_windows_gets_the_digits_of_the_map(files, asked, answers, tmp_path, fmi
     command = [WINE, "host.exe", f"binaries\\{folder}\\friction.dll", resources, fmi[0]]
     environment = {**os.environ, "WINEDEBUG": "-all", "WINEPREFIX": str(tmp_path / "wine")}
     wine = {"capture_output": True, "text": True, "cwd": tmp_path, "env": environment}
-    found = subprocess.run([*command, token(tmp_path)], input=asked, check=True, **wine)
-    assert found.stdout == answers
+    result = subprocess.run([*command, token(tmp_path)], input=asked, check=True, **wine)
+    assert result.stdout == answers
     other = subprocess.run([*command, "{another}"], **wine)
     assert other.returncode == 1
     assert '"{another}" is that of another FMU' in other.stderr

@@ -12,8 +12,8 @@ from helpers.fmus import A_T, MAX_ERROR, NAN, OUTPUTS, of_map, on_linux, points,
 @on_linux
 def test_outputs_are_those_of_the_map(host, road):
     for pressure, velocity in zip(*points(200), strict=True):
-        found = host.at(float(pressure), float(velocity))
-        assert found == same(of_map(road, float(pressure), float(velocity)))
+        result = host.at(float(pressure), float(velocity))
+        assert result == same(of_map(road, float(pressure), float(velocity)))
         assert host.inside() == 1
 
 
@@ -25,7 +25,7 @@ def test_simulation_with_variable_steps(files, road, fmi):
         [(t, 1e5 * (1 + t), 0.3 - 0.29 * t) for t in times],
         dtype=[("time", float), ("pressure", float), ("velocity", float)],
     )
-    found = fmpy.simulate_fmu(
+    result = fmpy.simulate_fmu(
         str(files[fmi, None]),
         input=signals,
         output=["mu", "time"] if fmi == "3.0" else ["mu"],
@@ -34,11 +34,11 @@ def test_simulation_with_variable_steps(files, road, fmi):
         start_values={"clamp": False},
     )
     # inputs are held through a step
-    before = found["time"][1:] - 0.05
+    before = result["time"][1:] - 0.05
     expected = road.mu(
         np.interp(before, times, signals["pressure"]), np.interp(before, times, signals["velocity"])
     )
-    np.testing.assert_allclose(found["mu"][1:], expected, rtol=1e-13)
+    np.testing.assert_allclose(result["mu"][1:], expected, rtol=1e-13)
 
 
 @on_linux

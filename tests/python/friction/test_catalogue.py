@@ -27,19 +27,19 @@ def test_the_page_has_every_row_and_readme_counts_them():
 @pytest.mark.parametrize("index", range(len(ROWS)), ids=[row.regime[:40] for row in ROWS])
 def test_ours_holds_where_the_naive_method_fails(index):
     row = ROWS[index]
-    found = outcome(row)
-    assert found.holds(row), found.ours
-    assert found.naive_fails(row), found.naive
-    stated, expected = LINES[index], catalogue.cells(row, found)
+    result = outcome(row)
+    assert result.holds(row), result.ours
+    assert result.naive_fails(row), result.naive
+    stated, expected = LINES[index], catalogue.cells(row, result)
     assert [stated[i] for i in (0, 1, 2, 5)] == [expected[i] for i in (0, 1, 2, 5)]
-    if isinstance(found.naive, str):
-        assert stated[3] == found.naive
+    if isinstance(result.naive, str):
+        assert stated[3] == result.naive
     else:
         # what cancels, or stops at a tolerance of its own, does not repeat to a digit elsewhere
-        assert float(stated[3]) == pytest.approx(found.naive, rel=0.5)
-    if isinstance(found.ours, float):
+        assert float(stated[3]) == pytest.approx(result.naive, rel=0.5)
+    if isinstance(result.ours, float):
         error, _, allowed = stated[4].partition(" (at most ")
         assert float(error) <= row.allowed
         assert allowed == f"{row.allowed:.0e})"
     else:
-        assert stated[4] == found.ours
+        assert stated[4] == result.ours

@@ -35,35 +35,35 @@ def elastic(modulus):
 @pytest.mark.parametrize("spectrum", [ROAD, STEEP])
 def test_contributions_integrate_to_the_hysteresis(spectrum, correction):
     velocity = np.array([1e-4, 1e-2, 0.3])
-    found = asperity.friction(
+    result = asperity.friction(
         spectrum, RUBBER, pressure=2e7, velocity=velocity, correction=correction, contributions=True
     )
-    y = np.log(found.wavenumber)
-    assert found.wavenumber[0] == spectrum.q0
-    assert found.wavenumber[-1] == spectrum.q1
-    assert found.dmu_dlnq.shape == (3, y.size)
-    total = np.sum((found.dmu_dlnq[:, 1:] + found.dmu_dlnq[:, :-1]) / 2 * np.diff(y), axis=1)
-    np.testing.assert_allclose(total, found.hysteresis, rtol=2e-3)  # step 0.07: a trapezoid's own
+    y = np.log(result.wavenumber)
+    assert result.wavenumber[0] == spectrum.q0
+    assert result.wavenumber[-1] == spectrum.q1
+    assert result.dmu_dlnq.shape == (3, y.size)
+    total = np.sum((result.dmu_dlnq[:, 1:] + result.dmu_dlnq[:, :-1]) / 2 * np.diff(y), axis=1)
+    np.testing.assert_allclose(total, result.hysteresis, rtol=2e-3)  # step 0.07: a trapezoid's own
     plain = asperity.friction(
         spectrum, RUBBER, pressure=2e7, velocity=velocity, correction=correction
     )
-    np.testing.assert_allclose(plain.mu, found.mu, rtol=1e-6)
+    np.testing.assert_allclose(plain.mu, result.mu, rtol=1e-6)
     assert plain.dmu_dlnq is plain.wavenumber is plain.decade_share is plain.decade_edges is None
 
 
 def test_decade_shares_are_the_friction_between_those_frequencies():
     velocity = np.array([1e-4, 1e-2, 0.3])
-    found = asperity.friction(STEEP, RUBBER, pressure=2e7, velocity=velocity, contributions=True)
-    edges, share = found.decade_edges, found.decade_share
+    result = asperity.friction(STEEP, RUBBER, pressure=2e7, velocity=velocity, contributions=True)
+    edges, share = result.decade_edges, result.decade_share
     assert share.shape == (3, edges.size - 1)
     np.testing.assert_allclose(share.sum(axis=1), 1, rtol=1e-9)
     np.testing.assert_allclose(np.log10(edges), np.round(np.log10(edges)), atol=1e-12)
     assert edges[0] <= 1e-4 * STEEP.q0
     assert edges[-1] >= 0.3 * STEEP.q1
-    y = np.log(found.wavenumber)
+    y = np.log(result.wavenumber)
     fine = np.linspace(y[0], y[-1], 20001)
     for i, v in enumerate(velocity):
-        density = np.interp(fine, y, found.dmu_dlnq[i])
+        density = np.interp(fine, y, result.dmu_dlnq[i])
         decade = np.searchsorted(edges, v * np.exp(fine)) - 1
         sums = np.bincount(np.clip(decade, 0, None), density, minlength=edges.size - 1)
         np.testing.assert_allclose(share[i], sums / sums.sum(), atol=3e-3)
@@ -87,10 +87,10 @@ def test_tightening_the_tolerance_does_not_change_a_friction_already_found():
 @pytest.mark.parametrize("rtol", [1e-2, 1e-4, 1e-8, 1e-11])
 def test_error_estimate_of_the_total_keeps_the_tolerance_asked_for(rtol, correction):
     options = {"correction": correction, "adhesion": asperity.Adhesion(shear_stress=5e6)}
-    found = asperity.friction(STEEP, RUBBER, **SCENE, **options, rtol=rtol)
+    result = asperity.friction(STEEP, RUBBER, **SCENE, **options, rtol=rtol)
     exact = asperity.friction(STEEP, RUBBER, **SCENE, **options, rtol=1e-12)
-    assert 0 < found.error_estimate <= rtol * found.mu
-    assert abs(found.mu - exact.mu) <= found.error_estimate + exact.error_estimate
+    assert 0 < result.error_estimate <= rtol * result.mu
+    assert abs(result.mu - exact.mu) <= result.error_estimate + exact.error_estimate
 
 
 def test_a_prony_series_extrapolates_nothing_and_a_table_says_how_much():
@@ -98,12 +98,12 @@ def test_a_prony_series_extrapolates_nothing_and_a_table_says_how_much():
     shares = []
     for low in (9.9, 3.0, 1.0, 1e-2):
         rubber = master_curve(low, 1e8)
-        found = asperity.friction(ROAD, rubber, pressure=2e7, velocity=0.005, contributions=True)
-        outside = rubber.extrapolated_shares(0.005 * found.wavenumber)[0]
-        part = np.trapezoid(found.dmu_dlnq * outside, np.log(found.wavenumber))
-        shares.append(found.extrapolated_share)
-        assert found.extrapolated_share == pytest.approx(
-            part / found.hysteresis, rel=5e-2, abs=1e-6
+        result = asperity.friction(ROAD, rubber, pressure=2e7, velocity=0.005, contributions=True)
+        outside = rubber.extrapolated_shares(0.005 * result.wavenumber)[0]
+        part = np.trapezoid(result.dmu_dlnq * outside, np.log(result.wavenumber))
+        shares.append(result.extrapolated_share)
+        assert result.extrapolated_share == pytest.approx(
+            part / result.hysteresis, rel=5e-2, abs=1e-6
         )
     assert np.all(np.diff(shares) < 0)
     assert shares[0] > 0.01
@@ -160,7 +160,7 @@ def test_states_of_contact_are_numbers_and_never_nan(expected):
     scene = {"pressure": 1e6, "velocity": 1.0} | changed
     assert state(correction, scene["pressure"]) == expected
     rubber = PronySeries(equilibrium_modulus=1e7, moduli=[1.0], relaxation_times=[1.0])
-    found = asperity.friction(
+    result = asperity.friction(
         ROAD, rubber, **scene, correction=correction, adhesion=asperity.Adhesion(shear_stress=1e6)
     )
     area = asperity.contact_area(ROAD, rubber, **scene, correction=correction)
@@ -168,19 +168,19 @@ def test_states_of_contact_are_numbers_and_never_nan(expected):
     factor = asperity.correction_factor(ROAD, rubber, **waves)
     mean = asperity.mean_pressure(ROAD, rubber, **waves)
     density = asperity.pressure_distribution(1e6, ROAD, rubber, **scene, correction=correction)
-    assert area == pytest.approx(found.contact_area, rel=1e-8)
+    assert area == pytest.approx(result.contact_area, rel=1e-8)
     if expected == "no contact":
-        assert (found.mu, found.hysteresis, found.adhesion, found.contact_area) == (0, 0, 0, 0)
-        assert (found.shift_factor, found.error_estimate, density) == (math.inf, 0, 0)
+        assert (result.mu, result.hysteresis, result.adhesion, result.contact_area) == (0, 0, 0, 0)
+        assert (result.shift_factor, result.error_estimate, density) == (math.inf, 0, 0)
         np.testing.assert_array_equal(factor, 0)
         np.testing.assert_array_equal(mean, np.inf)
     else:
         plain = asperity.friction(ROAD, rubber, **scene)
-        assert (found.shift_factor == 1) == (expected == "full")
-        assert (found.hysteresis == pytest.approx(plain.hysteresis, rel=1e-6, abs=0)) == (
+        assert (result.shift_factor == 1) == (expected == "full")
+        assert (result.hysteresis == pytest.approx(plain.hysteresis, rel=1e-6, abs=0)) == (
             expected == "full"
         )
-        assert np.all(np.isfinite([found.mu, area, density, *factor, *mean]))
+        assert np.all(np.isfinite([result.mu, area, density, *factor, *mean]))
 
 
 WIDE = SelfAffineSpectrum(rms_height=2e-5, hurst=0.87, q0=2e3, q1=1e6)  # rms slope 0.2
@@ -233,7 +233,9 @@ def test_the_shift_is_worse_than_none_where_its_area_is_further_from_the_best(p)
 
 
 def test_an_elastic_solid_has_no_hysteresis():
-    found = asperity.friction(ROAD, elastic(1e7), **SCENE, contributions=True)
-    assert (found.mu, found.hysteresis, found.error_estimate, found.extrapolated_share) == (0,) * 4
-    np.testing.assert_array_equal(found.dmu_dlnq, 0)
-    assert np.all(np.isfinite(found.decade_share))
+    result = asperity.friction(ROAD, elastic(1e7), **SCENE, contributions=True)
+    assert (result.mu, result.hysteresis, result.error_estimate, result.extrapolated_share) == (
+        0,
+    ) * 4
+    np.testing.assert_array_equal(result.dmu_dlnq, 0)
+    assert np.all(np.isfinite(result.decade_share))

@@ -58,26 +58,30 @@ ALL = [
 
 def test_total_is_hysteresis_and_adhesion_of_the_real_area():
     velocity = np.geomspace(1e-5, 10, 7)
-    found = asperity.friction(ROAD, RUBBER, pressure=2e6, velocity=velocity, adhesion=ADHESION)
+    result = asperity.friction(ROAD, RUBBER, pressure=2e6, velocity=velocity, adhesion=ADHESION)
     bell = np.exp(-0.1 * np.log10(velocity / 6e-3) ** 2)
-    np.testing.assert_allclose(found.adhesion, 8.3e6 / 2e6 * found.contact_area * bell, rtol=1e-13)
-    np.testing.assert_allclose(found.mu, found.hysteresis + found.adhesion, rtol=1e-15)
+    np.testing.assert_allclose(
+        result.adhesion, 8.3e6 / 2e6 * result.contact_area * bell, rtol=1e-13
+    )
+    np.testing.assert_allclose(result.mu, result.hysteresis + result.adhesion, rtol=1e-15)
     area = asperity.contact_area(ROAD, RUBBER, pressure=2e6, velocity=velocity)
-    np.testing.assert_allclose(found.contact_area, area, rtol=1e-8)
+    np.testing.assert_allclose(result.contact_area, area, rtol=1e-8)
 
 
 def test_pressure_and_velocity_broadcast_like_a_ufunc():
     pressure, velocity = np.array([[1e5], [1e6], [4e6]]), np.array([1e-4, 1e-3, 1e-2, 1e-1])
     q = [5e3, 1e4]
-    found = asperity.friction(ROAD, RUBBER, pressure=pressure, velocity=velocity, adhesion=ADHESION)
+    result = asperity.friction(
+        ROAD, RUBBER, pressure=pressure, velocity=velocity, adhesion=ADHESION
+    )
     area = asperity.contact_area(ROAD, RUBBER, pressure=pressure, velocity=velocity, wavenumber=q)
-    assert found.mu.shape == found.pressure.shape == (3, 4)
+    assert result.mu.shape == result.pressure.shape == (3, 4)
     assert area.shape == (3, 4, 2)
     for i, j in np.ndindex(3, 4):
         point = {"pressure": pressure[i, 0], "velocity": velocity[j]}
         one = asperity.friction(ROAD, RUBBER, **point, adhesion=ADHESION)
         assert isinstance(one.mu, float)
-        assert (one.mu, one.pressure, one.velocity) == (found.mu[i, j], *point.values())
+        assert (one.mu, one.pressure, one.velocity) == (result.mu[i, j], *point.values())
         alone = asperity.contact_area(ROAD, RUBBER, **point, wavenumber=q)
         np.testing.assert_array_equal(alone, area[i, j])
     assert isinstance(asperity.contact_area(ROAD, RUBBER, **SCENE, wavenumber=1e4), float)
@@ -167,11 +171,11 @@ def test_local_peaks_are_eq_13():
     assert LocalPeaks([1e-4, 2e-4, 3e-4], z_max=4e-4).shift_factor == pytest.approx(2)
     surface = asperity.synthesize(ROAD, shape=(60, 80), pixel_size=2e-4, seed=2)
     heights = surface.local_peaks(min_distance=1e-3)
-    found = LocalPeaks(surface, min_distance=1e-3)
-    np.testing.assert_array_equal(found.heights, heights)
+    result = LocalPeaks(surface, min_distance=1e-3)
+    np.testing.assert_array_equal(result.heights, heights)
     expected = surface.z_max / (surface.z_max - heights.mean())
-    assert found.shift_factor == pytest.approx(expected, rel=1e-12)
-    assert found.z_max == surface.z_max
+    assert result.shift_factor == pytest.approx(expected, rel=1e-12)
+    assert result.z_max == surface.z_max
 
 
 @pytest.mark.parametrize("reading", ["implicit", "added"])
@@ -190,9 +194,9 @@ def test_greenwood_williamson_shift_by_hand(reading, peaks):
     correction = GreenwoodWilliamson(
         **PROFILE, peaks=peaks, reading=reading, rms_height=2e-4, q0=1500
     )
-    found = asperity.friction(ROAD, RUBBER, **SCENE, correction=correction)
+    result = asperity.friction(ROAD, RUBBER, **SCENE, correction=correction)
     expected = (PROFILE["z_max"] - PROFILE["z_min"]) / (PROFILE["z_max"] - d.effective)
-    assert found.shift_factor == pytest.approx(expected, rel=1e-10)
+    assert result.shift_factor == pytest.approx(expected, rel=1e-10)
 
 
 @pytest.mark.parametrize("reading", ["implicit", "added"])
@@ -207,8 +211,8 @@ def test_peaks_then_greenwood_williamson_multiplies_the_two_shifts(reading):
     ).effective
     top, bottom = PROFILE["z_max"] / first, PROFILE["z_min"] / first
     correction = PeaksThenGreenwoodWilliamson(PEAKS, **PROFILE, reading=reading)
-    found = asperity.friction(ROAD, RUBBER, **SCENE, correction=correction)
-    assert found.shift_factor == pytest.approx(first * (top - bottom) / (top - d), rel=1e-10)
+    result = asperity.friction(ROAD, RUBBER, **SCENE, correction=correction)
+    assert result.shift_factor == pytest.approx(first * (top - bottom) / (top - d), rel=1e-10)
 
 
 @pytest.mark.parametrize("correction", [None, SFactor(applies_to="area"), NayakSFactor()])
@@ -222,7 +226,7 @@ def test_roughness_above_the_wavenumber_asked_for_is_not_looked_at(correction, q
     rows = np.array([2e3, 2e4, 3e4])
     density = np.array([*ROAD.at(rows[:2]), 1e290])
     scan = asperity.TabulatedSpectrum(wavenumber=rows, density=density)
-    found = asperity.contact_area(scan, RUBBER, wavenumber=q, **scene)
-    assert found == pytest.approx(alone, rel=1e-9)
+    result = asperity.contact_area(scan, RUBBER, wavenumber=q, **scene)
+    assert result == pytest.approx(alone, rel=1e-9)
     with pytest.raises(asperity.InvalidInput, match="density"):
         asperity.contact_area(scan, RUBBER, **scene)

@@ -66,12 +66,12 @@ def slope(at, step=1e-3):
 @pytest.mark.parametrize("name", NUMBERS)
 def test_numbers_of_corrections(name, hot):
     correction, numbers = NUMBERS[name]
-    found = of(correction=correction, **hot)
+    result = of(correction=correction, **hot)
     for number in numbers:
         argument = number.removeprefix("correction_")
         expected = slope(lambda f, n=argument: mu(correction=changed(correction, n, f), **hot))
-        assert getattr(found, number) == pytest.approx(expected, rel=1e-4, abs=1e-9), number
-    assert found.q0 == pytest.approx(
+        assert getattr(result, number) == pytest.approx(expected, rel=1e-4, abs=1e-9), number
+    assert result.q0 == pytest.approx(
         slope(lambda f: mu(changed(ROAD, "q0", f), correction=correction, **hot)), rel=1e-4
     )
 
@@ -79,9 +79,9 @@ def test_numbers_of_corrections(name, hot):
 @pytest.mark.parametrize("correction", [None, asperity.PartialContact(), NUMBERS["both"][0]])
 @pytest.mark.parametrize("ratio", [0.45, 0.2, 0.0])
 def test_poisson_ratio(correction, ratio):
-    found = of(correction=correction, poisson_ratio=ratio).poisson_ratio
+    result = of(correction=correction, poisson_ratio=ratio).poisson_ratio
     expected = slope(lambda f: mu(correction=correction, poisson_ratio=ratio * f))
-    assert found == pytest.approx(expected, rel=1e-5, abs=1e-12)
+    assert result == pytest.approx(expected, rel=1e-5, abs=1e-12)
 
 
 @pytest.mark.parametrize("correction", [None, asperity.PartialContact()])
@@ -110,20 +110,20 @@ def test_narrow_bands(argument, law, correction):
     road = asperity.SelfAffineSpectrum(
         **{"rms_height": 2e-5, "hurst": 0.8, "q0": 2000, "q1": 1e6} | law
     )
-    found = of(road, correction=correction)
+    result = of(road, correction=correction)
     step = 1e-8 if argument == "rolloff" else 1e-4
     expected = slope(lambda f: mu(changed(road, argument, f), correction=correction), step)
-    assert abs(getattr(found, argument) - expected) <= 2 * found.error_estimate
+    assert abs(getattr(result, argument) - expected) <= 2 * result.error_estimate
 
 
 @pytest.mark.parametrize("correction", [None, asperity.PartialContact()])
 def test_no_roughness_and_no_loss(correction):
     flat = asperity.TabulatedSpectrum(wavenumber=[2e3, 1e5, 1e6], density=[0, 0, 0])
-    for found in (of(flat, correction=correction), of(flat, ELASTIC, correction=correction)):
+    for result in (of(flat, correction=correction), of(flat, ELASTIC, correction=correction)):
         # the adhesion in complete contact alone
-        assert found.pressure == pytest.approx(-found.shear_stress)
-        assert not found.loss.any()
-        assert not found.spectrum.any()
+        assert result.pressure == pytest.approx(-result.shear_stress)
+        assert not result.loss.any()
+        assert not result.spectrum.any()
     dry = of(ROAD, ELASTIC, correction=correction, adhesion=None)
     for name in ("pressure", "velocity", "hurst", "q0", "q1", "equilibrium_modulus"):
         assert getattr(dry, name) == 0
@@ -131,5 +131,5 @@ def test_no_roughness_and_no_loss(correction):
 
 def test_many_rings_without_roughness():
     flat = asperity.TabulatedSpectrum(wavenumber=np.geomspace(2e3, 1e6, 30), density=np.zeros(30))
-    found = of(flat, correction=asperity.PartialContact())
-    assert found.pressure == pytest.approx(-found.shear_stress)
+    result = of(flat, correction=asperity.PartialContact())
+    assert result.pressure == pytest.approx(-result.shear_stress)

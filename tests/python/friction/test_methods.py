@@ -52,7 +52,7 @@ def test_methods_agree_within_their_estimates(scene, method, rtol):
 
 def meets(row, spectrum, method, rtol, some):
     """Hold some of the velocities of a row within the estimate, and that within the tolerance."""
-    found = asperity.friction(
+    result = asperity.friction(
         spectrum,
         rubber_of(row),
         pressure=row["pressure"],
@@ -61,9 +61,9 @@ def meets(row, spectrum, method, rtol, some):
         rtol=rtol,
         method=method,
     )
-    rounding = row["rtol"] * found.mu
-    assert np.all(np.abs(found.mu - row["hystereses"][some]) <= found.error_estimate + rounding)
-    assert np.all(found.error_estimate <= rtol * found.mu)
+    rounding = row["rtol"] * result.mu
+    assert np.all(np.abs(result.mu - row["hystereses"][some]) <= result.error_estimate + rounding)
+    assert np.all(result.error_estimate <= rtol * result.mu)
 
 
 @pytest.mark.reference("friction_curves")

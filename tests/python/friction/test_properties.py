@@ -91,10 +91,12 @@ def rough(surface):
 @given(SCENES, CORRECTIONS)
 def test_area_is_a_share_and_friction_not_negative(scene, correction):
     surface, rubber, options = scene
-    found = asperity.friction(surface, rubber, correction=correction, **suited(options, correction))
-    assert 0 <= found.contact_area <= 1
-    assert found.mu >= 0
-    assert 0 <= found.error_estimate <= 1e-6 * found.mu
+    result = asperity.friction(
+        surface, rubber, correction=correction, **suited(options, correction)
+    )
+    assert 0 <= result.contact_area <= 1
+    assert result.mu >= 0
+    assert 0 <= result.error_estimate <= 1e-6 * result.mu
 
 
 @given(SCENES, CORRECTIONS, st.floats(1e-9, 1))

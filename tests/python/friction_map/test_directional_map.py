@@ -88,11 +88,11 @@ def test_a_look_up_without_a_direction_is_along_the_axis_of_the_map(road, tmp_pa
 
 def test_slopes_are_at_the_direction(road):
     h = 1e-5
-    found = road.derivatives(1e5, 1e-2, direction=0.7)
+    result = road.derivatives(1e5, 1e-2, direction=0.7)
     by_p = [road.mu(1e5 * np.exp(s), 1e-2, direction=0.7) for s in (-h, h)]
     by_v = [road.mu(1e5, 1e-2 * np.exp(s), direction=0.7) for s in (-h, h)]
-    assert found.dmu_dlnp == pytest.approx((by_p[1] - by_p[0]) / (2 * h), abs=1e-7)
-    assert found.dmu_dlnv == pytest.approx((by_v[1] - by_v[0]) / (2 * h), abs=1e-7)
+    assert result.dmu_dlnp == pytest.approx((by_p[1] - by_p[0]) / (2 * h), abs=1e-7)
+    assert result.dmu_dlnv == pytest.approx((by_v[1] - by_v[0]) / (2 * h), abs=1e-7)
 
 
 def test_temperatures_shift_it_in_every_direction(road):

@@ -114,23 +114,23 @@ FINE = [(name, 1e-6) for name in SCENES if name != SLOW]
 def test_a_map_is_as_good_as_it_says(name, rtol):
     plain = {"road": ROAD, "rubber": RUBBER, "correction": None, "form": "exact"}
     scene = {**plain, **SCENES[name]}
-    found = made(**scene, rtol=rtol)
-    assert 0 < found.max_error <= rtol
+    result = made(**scene, rtol=rtol)
+    assert 0 < result.max_error <= rtol
     p, v = random_points(3000)
     parts = scene.pop("road"), scene.pop("rubber")
     truth = friction(*parts, pressure=p, velocity=v, adhesion=ADHESION, rtol=1e-10, **scene)
     for quantity in ("mu", "hysteresis", "adhesion", "contact_area"):
         exact = getattr(truth, quantity)
-        error = np.abs(getattr(found, quantity)(p, v) - exact)
-        assert (error <= found.max_error * exact).all(), quantity
+        error = np.abs(getattr(result, quantity)(p, v) - exact)
+        assert (error <= result.max_error * exact).all(), quantity
 
 
 def test_the_check_counts_what_is_beyond_the_certified_error():
-    found = made(checked=20_000)
-    assert found.checked == 20_000
-    assert found.exceeded == 0
+    result = made(checked=20_000)
+    assert result.checked == 20_000
+    assert result.exceeded == 0
     # twice the largest error on unseen points: what 20,000 others show is near half of it
-    assert 0.3 * found.max_error < found.largest_checked_error <= found.max_error
+    assert 0.3 * result.max_error < result.largest_checked_error <= result.max_error
 
 
 def test_the_check_adds_the_error_of_the_solver():
@@ -139,10 +139,10 @@ def test_the_check_adds_the_error_of_the_solver():
     road = asperity.TabulatedSpectrum(wavenumber=q, density=ROAD.at(q))
     box = {"pressure": (1e5, 1.0001e5), "velocity": (0.1, 0.10001)}
     scene = {"correction": NayakSFactor(), "rubber": master_curve(), "adhesion": None}
-    found = made(road=road, box=box, checked=200, **scene)
+    result = made(road=road, box=box, checked=200, **scene)
     solved = friction(road, **scene, pressure=1e5, velocity=0.1, rtol=1e-6)
-    assert found.largest_checked_error > 0.9 * solved.error_estimate / solved.mu
-    assert found.exceeded == 0
+    assert result.largest_checked_error > 0.9 * solved.error_estimate / solved.mu
+    assert result.exceeded == 0
 
 
 def test_cells_are_as_many_as_the_tolerance_needs():
@@ -156,11 +156,11 @@ def test_cells_are_as_many_as_the_tolerance_needs():
 
 def test_a_fine_map_of_many_decades_is_made_from_few_points():
     # a cell asks for a hundred points, of which there are tens of thousands; polynomials for 160
-    found = made(box={"pressure": (5e4, 1e6), "velocity": (1e-12, 1e6)}, rtol=1e-8, checked=20_000)
-    assert found.cells > 10_000
-    assert found.max_error <= 1e-8
-    assert found.exceeded == 0
-    assert 0.3 * found.max_error < found.largest_checked_error
+    result = made(box={"pressure": (5e4, 1e6), "velocity": (1e-12, 1e6)}, rtol=1e-8, checked=20_000)
+    assert result.cells > 10_000
+    assert result.max_error <= 1e-8
+    assert result.exceeded == 0
+    assert 0.3 * result.max_error < result.largest_checked_error
 
 
 def test_kinks_beside_the_edge_of_a_patch_are_seen():
@@ -168,14 +168,14 @@ def test_kinks_beside_the_edge_of_a_patch_are_seen():
     # one of this box had left neighbours apart, so that no number of cells was enough
     box = {**BOX, "velocity": (1e-5 * 1.05**3, 3.0)}
     correction = GreenwoodWilliamson(z_max=9e-4, z_min=-8e-4)
-    found = made(correction, rubber=noisy_master_curve(), box=box, checked=20_000)
-    assert found.max_error <= 1e-4
-    assert found.exceeded == 0
+    result = made(correction, rubber=noisy_master_curve(), box=box, checked=20_000)
+    assert result.max_error <= 1e-4
+    assert result.exceeded == 0
 
 
 @pytest.mark.parametrize("name", ["none", "s-factor", "master curve"])
 def test_values_and_slopes_have_no_steps(name):
-    found = made(**SCENES[name])
+    result = made(**SCENES[name])
     p, v = random_points(40_000, seed=2)
     step = 1e-7  # so many of them cross a side of a cell
     for dp, dv in ((step, 0.0), (0.0, step)):
@@ -183,8 +183,8 @@ def test_values_and_slopes_have_no_steps(name):
         inside = (there[0] < BOX["pressure"][1]) & (there[1] < BOX["velocity"][1])
         here = p[inside], v[inside]
         there = there[0][inside], there[1][inside]
-        a, b = found.derivatives(*here), found.derivatives(*there)
-        mu_a, mu_b = found.mu(*here), found.mu(*there)
+        a, b = result.derivatives(*here), result.derivatives(*there)
+        mu_a, mu_b = result.mu(*here), result.mu(*there)
         slope = a.dmu_dlnp if dp else a.dmu_dlnv
         other = b.dmu_dlnp if dp else b.dmu_dlnv
         # second derivatives are of the order of mu: over a step they change mu by step^2
@@ -217,15 +217,15 @@ def test_another_temperature_shifts_the_velocity(road_map):
         ROAD, RUBBER.shifted(a_t), pressure=p, velocity=v, correction=SFactor(), adhesion=ADHESION
     )
     for quantity in ("mu", "hysteresis", "adhesion", "contact_area"):
-        found = getattr(road_map, quantity)(p, v, a_T=a_t)
-        np.testing.assert_allclose(found, getattr(other, quantity), rtol=1e-4)
+        result = getattr(road_map, quantity)(p, v, a_T=a_t)
+        np.testing.assert_allclose(result, getattr(other, quantity), rtol=1e-4)
     # on request as if v0 were v0 / a_T
     moved = Adhesion(shear_stress=8.3e6, reference_velocity=6e-3 / a_t)
     other = friction(
         ROAD, RUBBER.shifted(a_t), pressure=p, velocity=v, correction=SFactor(), adhesion=moved
     )
-    found = road_map.mu(p, v, a_T=a_t, shift_adhesion=True)
-    np.testing.assert_allclose(found, other.mu, rtol=1e-4)
+    result = road_map.mu(p, v, a_T=a_t, shift_adhesion=True)
+    np.testing.assert_allclose(result, other.mu, rtol=1e-4)
     # a temperature for each point
     several = road_map.mu(p, 1e-3, a_T=[1.0, 10.0])
     np.testing.assert_array_equal(several, [road_map.mu(p, 1e-3), road_map.mu(p, 1e-3, a_T=10.0)])
@@ -268,7 +268,7 @@ FULL = {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-4e-4)}
 
 
 def test_the_map_is_split_where_contact_becomes_full():
-    found = made(**FULL, rtol=1e-5)
+    result = made(**FULL, rtol=1e-5)
     v = np.geomspace(1.1e-5, 2.9, 23)
     fine = np.geomspace(*BOX["pressure"], 20_001)
     crossed = 0
@@ -284,14 +284,14 @@ def test_the_map_is_split_where_contact_becomes_full():
             full = friction(ROAD, RUBBER, pressure=middle, **scene).shift_factor == 1
             low, high = (low, middle) if full else (middle, high)
         # no step at the kink, and the slope of either side right up to it
-        assert found.mu(low, velocity) == pytest.approx(found.mu(high, velocity), rel=1e-9)
+        assert result.mu(low, velocity) == pytest.approx(result.mu(high, velocity), rel=1e-9)
         for edge, sign in ((low * (1 - 1e-4), -1), (high * (1 + 1e-4), 1)):
             h = 1e-3
             values = friction(
                 ROAD, RUBBER, pressure=edge * np.exp([0, sign * h, sign * 2 * h]), **scene
             ).mu
             exact = sign * (-3 * values[0] + 4 * values[1] - values[2]) / (2 * h)
-            slope = found.derivatives(edge, velocity).dmu_dlnp
+            slope = result.derivatives(edge, velocity).dmu_dlnp
             assert slope == pytest.approx(exact, abs=2e-3 * values[0])
     assert crossed > 5
 
@@ -319,11 +319,11 @@ def test_steps_of_the_modulus_are_seen_by_greenwood_williamson(width):
     p = np.exp(draws.uniform(*np.log(made.pressure), 3000))
     v = np.exp(draws.choice(steps, 3000) + width * draws.uniform(-10, 10, 3000)) / ROAD.q0
     exact = friction(ROAD, rubber, pressure=p, velocity=v, rtol=1e-6, correction=correction)
-    for found, truth in (
+    for result, truth in (
         (made.hysteresis(p, v), exact.hysteresis),
         (made.contact_area(p, v), exact.contact_area),
     ):
-        assert np.abs(found / truth - 1).max() <= made.max_error <= 1e-3
+        assert np.abs(result / truth - 1).max() <= made.max_error <= 1e-3
 
 
 @pytest.mark.parametrize("reading", ["implicit", "added"])
@@ -341,9 +341,9 @@ def test_a_box_with_a_part_without_contact_is_refused(reading):
 @pytest.mark.parametrize("name", ["gw added", "combined", "none"])
 def test_narrow_boxes_are_no_worse(name, ratio):
     box = {"pressure": (3e5, 3e5 * ratio), "velocity": (1e-5, 3.0)}
-    found = made(**SCENES[name], box=box, checked=5000)
-    assert 0 < found.max_error <= 1e-4
-    assert found.exceeded == 0
+    result = made(**SCENES[name], box=box, checked=5000)
+    assert 0 < result.max_error <= 1e-4
+    assert result.exceeded == 0
 
 
 def test_a_box_near_the_onset_of_contact_is_mapped():
@@ -356,8 +356,8 @@ def test_a_box_near_the_onset_of_contact_is_mapped():
         lowest, highest = (lowest, middle) if area > 0 else (middle, highest)
     for above in (1.01, 1.1):
         box["pressure"] = (highest * above, 1e6)
-        found = made(lifted, box=box, rtol=1e-2, checked=5000)
-        assert found.exceeded == 0
+        result = made(lifted, box=box, rtol=1e-2, checked=5000)
+        assert result.exceeded == 0
 
 
 def box(**sides):
@@ -397,11 +397,11 @@ def test_what_no_map_is_made_of_is_refused(argument, given):
 
 
 def test_an_elastic_rubber_has_area_and_adhesion_alone():
-    found = made(**SCENES["elastic"])
+    result = made(**SCENES["elastic"])
     p, v = random_points(10)
-    np.testing.assert_array_equal(found.hysteresis(p, v), 0)
-    np.testing.assert_allclose(found.mu(p, v), found.adhesion(p, v), rtol=1e-14)
+    np.testing.assert_array_equal(result.hysteresis(p, v), 0)
+    np.testing.assert_allclose(result.mu(p, v), result.adhesion(p, v), rtol=1e-14)
     bare = made(**SCENES["elastic"], adhesion=None)
     np.testing.assert_array_equal(bare.mu(p, v), 0)
     assert bare.adhesion_law is None
-    assert found.adhesion_law == ADHESION
+    assert result.adhesion_law == ADHESION

@@ -84,20 +84,20 @@ SLOW = "master curve"  # ten milliseconds a point
 def test_a_hot_map_is_as_good_as_it_says(name, rtol):
     scene = {"rubber": RUBBER, "adhesion": ADHESION, "correction": None, "form": "exact"}
     scene |= SCENES[name]
-    found = made(**scene, rtol=rtol)
-    assert 0 < found.max_error <= rtol
-    assert found.temperature == (293.15, 293.15)
+    result = made(**scene, rtol=rtol)
+    assert 0 < result.max_error <= rtol
+    assert result.temperature == (293.15, 293.15)
     p, v, _ = random_points(300)
     at = {"pressure": p, "velocity": v, "temperature": 293.15}
     truth = friction(ROAD, scene.pop("rubber"), **at, **HEAT, **scene, rtol=1e-9)
     assert (np.abs(truth.mu / truth.cold.mu - 1) > 0.1).any()
     for quantity in PARTS:
         exact, cold = getattr(truth, quantity), getattr(truth.cold, quantity)
-        look_up = getattr(found, quantity)
-        assert (np.abs(look_up(p, v) - exact) <= found.max_error * exact).all(), quantity
+        look_up = getattr(result, quantity)
+        assert (np.abs(look_up(p, v) - exact) <= result.max_error * exact).all(), quantity
         begun = look_up(p, v, distance=0.0)
-        assert (np.abs(begun - cold) <= found.cold.max_error * cold).all(), quantity
-        np.testing.assert_allclose(getattr(found.cold, quantity)(p, v), begun, rtol=1e-12)
+        assert (np.abs(begun - cold) <= result.cold.max_error * cold).all(), quantity
+        np.testing.assert_allclose(getattr(result.cold, quantity)(p, v), begun, rtol=1e-12)
 
 
 def test_so_is_one_with_an_axis_of_temperature(several):
@@ -123,54 +123,54 @@ def test_hysteresis_is_as_good_where_adhesion_is_25_000_times_as_much():
         equilibrium_modulus=3e7, moduli=[3e3, 3e3], relaxation_times=[1e-5, 1e-3]
     )
     box = {"pressure": (1e5, 4e5), "velocity": (1e-2, 0.1)}
-    found = made(rubber=nearly_elastic, box=box, checked=400)
-    assert (found.max_error <= found.rtol, found.exceeded) == (True, 0)
+    result = made(rubber=nearly_elastic, box=box, checked=400)
+    assert (result.max_error <= result.rtol, result.exceeded) == (True, 0)
     p, v, _ = random_points(100, box)
     at = {"pressure": p, "velocity": v, "temperature": 293.15}
     truth = friction(ROAD, nearly_elastic, **at, **HEAT, adhesion=ADHESION, rtol=1e-10)
     assert (truth.adhesion > 2e4 * truth.hysteresis).all()
-    assert (np.abs(found.hysteresis(p, v) / truth.hysteresis - 1) <= found.max_error).all()
-    assert (np.abs(found.contact_area(p, v) / truth.contact_area - 1) <= found.max_error).all()
+    assert (np.abs(result.hysteresis(p, v) / truth.hysteresis - 1) <= result.max_error).all()
+    assert (np.abs(result.contact_area(p, v) / truth.contact_area - 1) <= result.max_error).all()
 
 
 def test_what_heat_hardly_changes_is_the_error_of_its_memory():
     told = []
-    found = made(adhesion=None, box=BOX | {"velocity": (1e-6, 1e-5)}, progress=told.append)
+    result = made(adhesion=None, box=BOX | {"velocity": (1e-6, 1e-5)}, progress=told.append)
     assert (told == sorted(told), told[-1]) == (True, 1)
     at = {"pressure": np.geomspace(*BOX["pressure"], 20)[:, None], "velocity": [1e-6, 3e-6, 1e-5]}
     truth = friction(ROAD, RUBBER, temperature=293.15, **at, **HEAT, rtol=1e-10)
     change = np.abs(truth.mu / truth.cold.mu - 1).max()
-    assert 0 < change < 0.1 * found.rtol
-    assert 0.9 * change < found.memory_error < 1.01 * change
+    assert 0 < change < 0.1 * result.rtol
+    assert 0.9 * change < result.memory_error < 1.01 * change
 
 
 @pytest.mark.parametrize("which", ["one", "several"])
 def test_sliding_that_begins_heats_up_over_the_sliding_length(which, request):
-    found = request.getfixturevalue(which)
+    result = request.getfixturevalue(which)
     p, v, t = random_points(200, seed=2)
     if which == "one":
         t = np.full_like(t, 293.15)
     at = {"pressure": p, "velocity": v, "temperature": t}
     truth = friction(ROAD, RUBBER, **at, **HEAT, adhesion=ADHESION)
     distance = truth.sliding_length * np.random.default_rng(3).uniform(0, 3, p.size)
-    error = np.abs(found.mu(**at, distance=distance) / truth.mu_at(distance) - 1)
+    error = np.abs(result.mu(**at, distance=distance) / truth.mu_at(distance) - 1)
     # 99 % of points keep memory_error, beside the map's own error
-    assert np.mean(error <= found.memory_error + found.max_error) >= 0.99
-    begun, long_ago = found.mu(**at, distance=0.0), found.mu(**at)
+    assert np.mean(error <= result.memory_error + result.max_error) >= 0.99
+    begun, long_ago = result.mu(**at, distance=0.0), result.mu(**at)
     # and all keep what the heat changes, whatever s0 is
     largest = np.maximum(truth.mu, truth.cold.mu)
-    off = np.abs(found.mu(**at, distance=distance) - truth.mu_at(distance))
-    assert (off <= np.abs(truth.cold.mu - truth.mu) + 1.1 * found.max_error * largest).all()
-    np.testing.assert_array_equal(found.mu(**at, distance=1.0), long_ago)
-    s0 = found.sliding_length(v, temperature=t)
-    between = found.mu(**at, distance=s0)
+    off = np.abs(result.mu(**at, distance=distance) - truth.mu_at(distance))
+    assert (off <= np.abs(truth.cold.mu - truth.mu) + 1.1 * result.max_error * largest).all()
+    np.testing.assert_array_equal(result.mu(**at, distance=1.0), long_ago)
+    s0 = result.sliding_length(v, temperature=t)
+    between = result.mu(**at, distance=s0)
     np.testing.assert_allclose(between, long_ago + (begun - long_ago) / np.e, rtol=1e-12)
 
 
 def test_the_grid_of_the_sliding_length_is_halved_where_it_is_steep():
     """Steps of 0.25 in ln v alone leave 2 % of mu."""
-    found = made(adhesion=None, rtol=1e-2)
-    assert 0 < found.memory_error < 0.01
+    result = made(adhesion=None, rtol=1e-2)
+    assert 0 < result.memory_error < 0.01
 
 
 def test_a_map_is_the_same_for_any_number_of_threads():
@@ -224,10 +224,10 @@ def test_a_map_without_heat_knows_no_temperature():
 
 def test_without_heating_the_rubber_is_shifted_to_the_temperature():
     options = {"checked": 0, "rtol": 1e-2, **BOX}
-    found = friction_map(ROAD, RUBBER, temperature=303.15, shift=LAW, **options)
+    result = friction_map(ROAD, RUBBER, temperature=303.15, shift=LAW, **options)
     by_hand = friction_map(ROAD, RUBBER.shifted(10 ** LAW.log10_a_T(303.15)), **options)
     p, v, _ = random_points(50)
-    np.testing.assert_array_equal(found.mu(p, v), by_hand.mu(p, v))
+    np.testing.assert_array_equal(result.mu(p, v), by_hand.mu(p, v))
 
 
 GLASS = {  # the rubber's glass transition is at -30 C, where heat runs away from 1 m/s on
@@ -239,8 +239,8 @@ GLASS = {  # the rubber's glass transition is at -30 C, where heat runs away fro
 def test_a_fold_is_refused_with_its_temperature_and_velocity():
     rubber = PronySeries(equilibrium_modulus=2e6, **GLASS)
     at = {"pressure": 2e5, "velocity": np.geomspace(1, 20, 30), "temperature": 238.0}
-    found = friction(ROAD, rubber, **at, **HEAT)
-    assert found.branches.max() > 1
+    result = friction(ROAD, rubber, **at, **HEAT)
+    assert result.branches.max() > 1
     with pytest.raises(InvalidInput) as caught:
         made((238.0, 250.0), rubber=rubber, adhesion=None, box=BOX | {"velocity": (0.1, 20.0)})
     text = str(caught.value)

@@ -30,15 +30,15 @@ def test_a_map_of_a_scene(scene, capsys):
     assert status_of(["map", scene, "--output", "road.fmap", "--plot", "map.png", *QUICK]) == 0
     told = capsys.readouterr()
     assert "max_error = " in told.out
-    found = asperity.FrictionMap.load("road.fmap")
-    assert found.pressure == (81e3, 2e5)
-    assert found.velocity == pytest.approx((1e-4, 1))
-    assert (found.rtol, found.checked, found.exceeded) == (1e-4, 2000, 0)
+    result = asperity.FrictionMap.load("road.fmap")
+    assert result.pressure == (81e3, 2e5)
+    assert result.velocity == pytest.approx((1e-4, 1))
+    assert (result.rtol, result.checked, result.exceeded) == (1e-4, 2000, 0)
     parts = load_scene(scene)
     exact = asperity.friction(
         parts.spectrum, parts.rubber, pressure=1e5, velocity=0.03, adhesion=parts.adhesion
     )
-    assert found.mu(1e5, 0.03) == pytest.approx(exact.mu, rel=found.max_error)
+    assert result.mu(1e5, 0.03) == pytest.approx(exact.mu, rel=result.max_error)
     assert (scene.parent / "map.png").read_bytes()[:4] == b"\x89PNG"
     assert status_of(["map", "--info", "road.fmap"]) == 0
     info = capsys.readouterr().out
@@ -46,15 +46,15 @@ def test_a_map_of_a_scene(scene, capsys):
     assert "surface.hurst = 0.7" in info
     assert status_of(["map", "--info", "road.fmap", "--json"]) == 0
     as_json = json.loads(capsys.readouterr().out)
-    assert as_json["max_error"] == found.max_error
+    assert as_json["max_error"] == result.max_error
     assert as_json["pressure_pa"] == [81e3, 2e5]
 
 
 def test_sides_and_tolerance_may_be_given(scene):
     sides = ["--pressure", "1e4,1e6", "--velocity", "1e-3,0.1"]
     assert status_of(["map", scene, "--output", "a.fmap", *sides, "--rtol", "1e-3", *QUICK]) == 0
-    found = asperity.FrictionMap.load("a.fmap")
-    assert (found.pressure, found.velocity, found.rtol) == ((1e4, 1e6), (1e-3, 0.1), 1e-3)
+    result = asperity.FrictionMap.load("a.fmap")
+    assert (result.pressure, result.velocity, result.rtol) == ((1e4, 1e6), (1e-3, 0.1), 1e-3)
     stated = SCENE + "\n[solver]\nrtol = 1e-5\n"
     scene.write_text(stated, encoding="utf-8")
     assert status_of(["map", scene, "--output", "b.fmap", *QUICK]) == 0
@@ -65,9 +65,9 @@ def test_one_pressure_gets_a_decade_to_either_side_and_a_note(scene, capsys):
     conditions = CONDITIONS.replace("[81e3, 2e5]", "81e3")
     scene.write_text(SURFACE + RUBBER + conditions + ADHESION, encoding="utf-8")
     assert status_of(["map", scene, "--output", "a.fmap", *QUICK]) == 0
-    found = asperity.FrictionMap.load("a.fmap")
-    np.testing.assert_allclose(found.pressure, (8.1e3, 8.1e5))
-    assert any(note.startswith("pressure: the scene has one") for note in found.notes)
+    result = asperity.FrictionMap.load("a.fmap")
+    np.testing.assert_allclose(result.pressure, (8.1e3, 8.1e5))
+    assert any(note.startswith("pressure: the scene has one") for note in result.notes)
     assert "pressure: the scene has one" in capsys.readouterr().err
 
 
@@ -146,8 +146,8 @@ def test_a_map_of_a_scene_with_heat(scene, capsys, temperature):
     given += ["--plot", "map.png"] if "[" in temperature else []
     assert status_of(["map", scene, *given]) == 0
     told = capsys.readouterr().out
-    found = asperity.FrictionMap.load("road.fmap")
-    assert found.temperature == ((298, 302) if "[" in temperature else (300, 300))
+    result = asperity.FrictionMap.load("road.fmap")
+    assert result.temperature == ((298, 302) if "[" in temperature else (300, 300))
     assert "temperature_k = " in told
     assert "memory_error = " in told
     parts = load_scene(scene, for_friction=True)
@@ -161,9 +161,9 @@ def test_a_map_of_a_scene_with_heat(scene, capsys, temperature):
         shift=parts.built_rubber.shift,
         heating=parts.heating,
     )
-    assert found.mu(1.5e5, 0.3, temperature=300) == pytest.approx(exact.mu, rel=found.max_error)
-    cold = found.mu(1.5e5, 0.3, temperature=300, distance=0)
-    assert cold == pytest.approx(exact.cold.mu, rel=found.max_error)
+    assert result.mu(1.5e5, 0.3, temperature=300) == pytest.approx(exact.mu, rel=result.max_error)
+    cold = result.mu(1.5e5, 0.3, temperature=300, distance=0)
+    assert cold == pytest.approx(exact.cold.mu, rel=result.max_error)
     assert (scene.parent / "map.png").exists() == ("--plot" in given)
 
 
@@ -171,12 +171,12 @@ def test_a_map_of_a_scene_with_heat(scene, capsys, temperature):
 def test_a_grid_for_simulators_that_interpolate(scene, capsys, name):
     assert status_of(["map", scene, "--output", "road.fmap", "--export", name, *QUICK]) == 0
     told = re.search(r"mu is off by up to ([0-9.e-]+)", capsys.readouterr().err)
-    found = asperity.FrictionMap.load("road.fmap")
+    result = asperity.FrictionMap.load("road.fmap")
     if name == "grid.mat":
         grid = scipy.io.loadmat(name, squeeze_me=True, simplify_cells=True)["friction"]
         pressure, velocity, mu = grid["pressure_pa"], grid["velocity_m_s"], grid["mu"]
         np.testing.assert_allclose(grid["mu_hysteresis"] + grid["mu_adhesion"], mu, rtol=1e-13)
-        assert grid["max_error"] == found.max_error
+        assert grid["max_error"] == result.max_error
         stated = grid["interpolation_error"]
     else:
         rows = np.genfromtxt(name, delimiter=",", comments="#")
@@ -186,14 +186,14 @@ def test_a_grid_for_simulators_that_interpolate(scene, capsys, name):
         pressure, mu = rows[1:, 0], rows[1:, 1:]
         stated = float(next(x for x in lines if "interpolation_error" in x).split("=")[1])
     assert stated == pytest.approx(float(told[1]), rel=0.1)
-    assert (pressure[0], pressure[-1]) == found.pressure
-    assert (velocity[0], velocity[-1]) == found.velocity
-    np.testing.assert_allclose(mu, found.mu(pressure[:, None], velocity), rtol=1e-14)
+    assert (pressure[0], pressure[-1]) == result.pressure
+    assert (velocity[0], velocity[-1]) == result.velocity
+    np.testing.assert_allclose(mu, result.mu(pressure[:, None], velocity), rtol=1e-14)
     # a simulator's own interpolation, at points that the error was not taken at
     draws = np.random.default_rng(4)
-    p, v = (np.exp(draws.uniform(*np.log(box), 5000)) for box in (found.pressure, found.velocity))
+    p, v = (np.exp(draws.uniform(*np.log(box), 5000)) for box in (result.pressure, result.velocity))
     look_up = scipy.interpolate.RegularGridInterpolator((np.log(pressure), np.log(velocity)), mu)
-    off = np.abs(look_up((np.log(p), np.log(v))) / found.mu(p, v) - 1)
+    off = np.abs(look_up((np.log(p), np.log(v))) / result.mu(p, v) - 1)
     assert off.max() < 1.5 * stated
     (scene.parent / name).unlink()
     assert status_of(["map", "--info", "road.fmap", "--export", name]) == 0
@@ -205,12 +205,12 @@ def test_a_grid_of_several_temperatures(scene, capsys):
     box = ["--pressure", "1e5,2e5", "--velocity", "0.1,1", "--rtol", "1e-2", "--checked", "100"]
     given = ["--output", "road.fmap", "--export", "grid.mat", *box]
     assert status_of(["map", scene, *given]) == 0
-    found = asperity.FrictionMap.load("road.fmap")
+    result = asperity.FrictionMap.load("road.fmap")
     grid = scipy.io.loadmat("grid.mat", squeeze_me=True, simplify_cells=True)["friction"]
     assert (grid["temperature_k"][0], grid["temperature_k"][-1]) == (298, 302)
     assert grid["mu"].shape == (41, 121, 9)
     at = [grid["pressure_pa"][3], grid["velocity_m_s"][5]]
-    there = found.mu(*at, temperature=grid["temperature_k"][7])
+    there = result.mu(*at, temperature=grid["temperature_k"][7])
     assert grid["mu"][3, 5, 7] == pytest.approx(there, rel=1e-14)
     assert status_of(["map", "--info", "road.fmap", "--export", "grid.csv"]) == 2
     assert "the map covers 298 to 302 K, a table has one; choose .mat" in capsys.readouterr().err

@@ -43,15 +43,15 @@ CURVE = curve()
 
 
 @pytest.fixture(scope="module", params=BOXES)
-def found(request):
+def result(request):
     return friction_map(
         ROAD, CURVE, temperature=RANGE, **BOXES[request.param], **GIVEN, rtol=1e-3, checked=1000
     )
 
 
-def points(found, count, seed=1):
+def points(result, count, seed=1):
     """The corners of the box, points on its sides, and random ones."""
-    sides = (found.pressure, found.velocity, found.temperature)
+    sides = (result.pressure, result.velocity, result.temperature)
     corners = [a.ravel() for a in np.meshgrid(*sides, indexing="ij")]
     draws = np.random.default_rng(seed)
     drawn = []
@@ -63,53 +63,53 @@ def points(found, count, seed=1):
     return dict(zip(("pressure", "velocity", "temperature"), drawn, strict=True))
 
 
-def test_it_is_as_good_as_it_says_to_the_corners_of_the_box(found):
-    assert 0 < found.max_error <= found.rtol
-    assert (found.checked, found.exceeded) == (1000, 0)
-    assert found.to_bytes()[152] == 3
-    assert asperity.FrictionMap.from_bytes(found.to_bytes()) == found
-    at = points(found, 200)
+def test_it_is_as_good_as_it_says_to_the_corners_of_the_box(result):
+    assert 0 < result.max_error <= result.rtol
+    assert (result.checked, result.exceeded) == (1000, 0)
+    assert result.to_bytes()[152] == 3
+    assert asperity.FrictionMap.from_bytes(result.to_bytes()) == result
+    at = points(result, 200)
     truth = friction(ROAD, CURVE, **at, **GIVEN, rtol=1e-7)
     assert np.ptp(np.log(truth.mu / truth.cold.mu)) > 0.5  # heat has its say
     for part in PARTS:
         exact = getattr(truth, part)
         np.testing.assert_array_less(
-            np.abs(getattr(found, part)(**at) - exact), found.max_error * exact, err_msg=part
+            np.abs(getattr(result, part)(**at) - exact), result.max_error * exact, err_msg=part
         )
-        begun = getattr(found, part)(**at, distance=0.0)
+        begun = getattr(result, part)(**at, distance=0.0)
         cold = getattr(truth.cold, part)
         np.testing.assert_array_less(
-            np.abs(begun - cold), found.cold.max_error * cold + 1e-6 * cold, err_msg=part
+            np.abs(begun - cold), result.cold.max_error * cold + 1e-6 * cold, err_msg=part
         )
 
 
-def test_slopes_are_those_of_mu_to_the_corners_of_the_box(found):
-    at = points(found, 200, seed=3)
-    slopes, h = found.derivatives(**at), 1e-5
+def test_slopes_are_those_of_mu_to_the_corners_of_the_box(result):
+    at = points(result, 200, seed=3)
+    slopes, h = result.derivatives(**at), 1e-5
     for column, slope in (("velocity", slopes.dmu_dlnv), ("pressure", slopes.dmu_dlnp)):
-        side = getattr(found, column)
+        side = getattr(result, column)
         higher, lower = ((at[column] * np.exp(sign * h)).clip(*side) for sign in (1, -1))
-        rise = found.mu(**at | {column: higher}) - found.mu(**at | {column: lower})
+        rise = result.mu(**at | {column: higher}) - result.mu(**at | {column: lower})
         # on a side of the box the difference is one of first order
         np.testing.assert_allclose(
             slope, rise / np.log(higher / lower), rtol=1e-4, atol=1e-4, err_msg=column
         )
 
 
-def test_on_the_way_from_cold_to_hot(found):
-    at = points(found, 100, seed=4)
-    s0 = found.sliding_length(at["velocity"], temperature=at["temperature"])
-    begun, long_ago = found.mu(**at, distance=0.0), found.mu(**at)
+def test_on_the_way_from_cold_to_hot(result):
+    at = points(result, 100, seed=4)
+    s0 = result.sliding_length(at["velocity"], temperature=at["temperature"])
+    begun, long_ago = result.mu(**at, distance=0.0), result.mu(**at)
     expected = long_ago + (begun - long_ago) / np.e
-    np.testing.assert_allclose(found.mu(**at, distance=s0), expected, rtol=1e-12)
+    np.testing.assert_allclose(result.mu(**at, distance=s0), expected, rtol=1e-12)
 
 
-def test_outside_is_held_at_the_box(found):
-    v = found.velocity[1]
-    beyond = found.mu(2e5, 2 * v, temperature=400.0, outside="clamp")
-    assert beyond == pytest.approx(found.mu(2e5, v, temperature=RANGE[1]), rel=1e-14)
+def test_outside_is_held_at_the_box(result):
+    v = result.velocity[1]
+    beyond = result.mu(2e5, 2 * v, temperature=400.0, outside="clamp")
+    assert beyond == pytest.approx(result.mu(2e5, v, temperature=RANGE[1]), rel=1e-14)
     with pytest.raises(asperity.OutOfRange, match=r"velocity = .*the map covers"):
-        found.mu(2e5, 2 * v, temperature=290.0)
+        result.mu(2e5, 2 * v, temperature=290.0)
 
 
 @pytest.mark.parametrize(
@@ -128,8 +128,8 @@ def test_one_temperature_of_a_box_that_is_rough_throughout():
     assert (made.to_bytes()[152], made.exceeded) == (1, 0)
 
 
-def test_the_documentation_is_enough_to_read_a_file(found):
-    read, at = ByLayout(found.to_bytes()), points(found, 100, seed=5)
+def test_the_documentation_is_enough_to_read_a_file(result):
+    read, at = ByLayout(result.to_bytes()), points(result, 100, seed=5)
     exact = np.array([read.slanted_look_up(*point) for point in zip(*at.values(), strict=True)])
-    np.testing.assert_allclose(found.hysteresis(**at), exact[:, 0], rtol=1e-11)
-    np.testing.assert_allclose(found.contact_area(**at), exact[:, 1], rtol=1e-11)
+    np.testing.assert_allclose(result.hysteresis(**at), exact[:, 0], rtol=1e-11)
+    np.testing.assert_allclose(result.contact_area(**at), exact[:, 1], rtol=1e-11)

@@ -28,10 +28,10 @@ def heated(row):
 
 @pytest.mark.reference("heat_kernel")
 def test_kernel_of_its_definition(row):
-    found = asperity.heat_kernel(
+    result = asperity.heat_kernel(
         row["q"], row["q_prime"], velocity=row["velocity"], heating=heated(row)
     )
-    close(row, ["g"], [found])
+    close(row, ["g"], [result])
 
 
 @pytest.mark.reference("heat_universal")

@@ -41,9 +41,9 @@ def test_states_that_are_near_each_other_or_at_a_thin_front(point):
     road, compound, at = random_heat.draw_scene(np.random.default_rng([1, scene]), rings=0.1)
     at["velocity"] = at["velocity"][which]
     for rtol in (1e-3, 1e-6):
-        found = asperity.friction(road, compound, **at, rtol=rtol)
-        assert found.mu == pytest.approx(COLDEST[point], rel=rtol + 2e-5)
-        assert found.branches == 3
+        result = asperity.friction(road, compound, **at, rtol=rtol)
+        assert result.mu == pytest.approx(COLDEST[point], rel=rtol + 2e-5)
+        assert result.branches == 3
 
 
 # terms, rms height, lines by row and factor, q1, velocity, temperature, correction, states
@@ -77,9 +77,9 @@ def test_a_line_that_runs_away_by_itself(line):
         "correction": correction,
     }
     table = asperity.TabulatedSpectrum(wavenumber=q, density=density)
-    found, finer = (hot(table, **at, rtol=rtol) for rtol in (1e-5, 1e-8))
-    assert found.branches == finer.branches == states
-    assert abs(found.mu - finer.mu) <= found.error_estimate + finer.error_estimate
+    result, finer = (hot(table, **at, rtol=rtol) for rtol in (1e-5, 1e-8))
+    assert result.branches == finer.branches == states
+    assert abs(result.mu - finer.mu) <= result.error_estimate + finer.error_estimate
 
 
 @pytest.mark.parametrize("temperature", [275.6, 275.625, 275.65, 275.7, 275.725])
@@ -96,10 +96,10 @@ def test_states_about_a_gain_of_one(temperature):
         "temperature": temperature,
         "rubber": compound,
     }
-    found, truth = (hot(ASPHALT, **at, rtol=rtol) for rtol in (1e-4, 1e-8))
+    result, truth = (hot(ASPHALT, **at, rtol=rtol) for rtol in (1e-4, 1e-8))
     assert truth.gain < 1
-    assert found.branches == truth.branches == (3 if temperature < 275.71 else 1)
-    assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
+    assert result.branches == truth.branches == (3 if temperature < 275.71 else 1)
+    assert abs(result.mu - truth.mu) <= result.error_estimate + truth.error_estimate
 
 
 def test_a_curve_stays_on_the_coldest_state():
@@ -141,9 +141,9 @@ def test_past_a_sharp_turn_the_curve_of_states_leads_on():
 def test_rubber_near_the_highest_temperature_has_a_state(temperature):
     """The search ends at twice the rise that is left, which a first stride may be longer than."""
     for branch in ("cold", "hot"):
-        found = hot(velocity=1.0, temperature=temperature, rtol=1e-3, branch=branch)
-        assert found.branches == 1
-        assert temperature < found.temperature < temperature + 0.1
+        result = hot(velocity=1.0, temperature=temperature, rtol=1e-3, branch=branch)
+        assert result.branches == 1
+        assert temperature < result.temperature < temperature + 0.1
 
 
 @pytest.mark.parametrize("bump", [0.0, 1.2])

@@ -33,7 +33,7 @@ SPEEDS = np.array([1e-3, 0.1, 10.0])
 @pytest.mark.parametrize("name", list(CORRECTIONS))
 def test_without_a_shift_in_the_modulus_heat_changes_nothing(name):
     for spectrum in (CUT, ASPHALT):
-        found = hot(
+        result = hot(
             spectrum,
             velocity=[1e-3, 0.3],
             shift=STILL,
@@ -41,11 +41,11 @@ def test_without_a_shift_in_the_modulus_heat_changes_nothing(name):
             adhesion=STICKY,
             rtol=1e-8,
         )
-        np.testing.assert_allclose(found.mu, found.cold.mu, rtol=2e-8)
-        np.testing.assert_allclose(found.contact_area, found.cold.contact_area, rtol=2e-8)
-        np.testing.assert_allclose(found.shift_factor, found.cold.shift_factor, rtol=1e-11)
-        assert (found.temperature > 293.2).all()
-        np.testing.assert_array_equal(found.gain, 0)
+        np.testing.assert_allclose(result.mu, result.cold.mu, rtol=2e-8)
+        np.testing.assert_allclose(result.contact_area, result.cold.contact_area, rtol=2e-8)
+        np.testing.assert_allclose(result.shift_factor, result.cold.shift_factor, rtol=1e-11)
+        assert (result.temperature > 293.2).all()
+        np.testing.assert_array_equal(result.gain, 0)
 
 
 def rings_with_lines(rng):
@@ -69,11 +69,11 @@ def test_an_elastic_rubber_has_the_area_that_it_has_without_heat(name, rtol):
     for number in range(10):
         rings = rings_with_lines(rng)
         given = {"pressure": 10 ** rng.uniform(2, 6.7, 3), "correction": CORRECTIONS[name]}
-        found = hot(rings, velocity=0.01, rubber=elastic, **given, rtol=rtol)
+        result = hot(rings, velocity=0.01, rubber=elastic, **given, rtol=rtol)
         truth = asperity.contact_area(rings, elastic, velocity=0.01, **given, rtol=rtol / 1000)
         with case(number=number):
-            np.testing.assert_array_equal(found.mu, 0)
-            np.testing.assert_allclose(found.contact_area, truth, rtol=rtol)
+            np.testing.assert_array_equal(result.mu, 0)
+            np.testing.assert_allclose(result.contact_area, truth, rtol=rtol)
 
 
 @pytest.mark.parametrize("name", ["partial", "nayak"])
@@ -96,29 +96,29 @@ def test_rings_with_strong_lines_are_as_near_as_they_say(name):
         truth = hot(**given, rtol=1e-10)
         for rtol in (1e-4, 1e-7, 3e-8, 1e-8):
             with case(number=number, rtol=rtol):
-                found = hot(**given, rtol=rtol)
-                assert found.error_estimate <= rtol * found.mu
-                assert abs(found.mu - truth.mu) <= found.error_estimate + truth.error_estimate
-                assert found.contact_area == pytest.approx(truth.contact_area, rel=rtol)
+                result = hot(**given, rtol=rtol)
+                assert result.error_estimate <= rtol * result.mu
+                assert abs(result.mu - truth.mu) <= result.error_estimate + truth.error_estimate
+                assert result.contact_area == pytest.approx(truth.contact_area, rel=rtol)
 
 
 @pytest.mark.parametrize("name", list(CORRECTIONS))
 def test_the_profile_is_what_the_heat_of_the_contributions_makes(name):
     """theta(q) = (2 v sigma0 / (rho c_v P_m)) int q' g(q, q') dmu_H(q'), by the trapezoid."""
     for velocity in (0.01, 3.0):
-        found = hot(velocity=velocity, correction=CORRECTIONS[name], contributions=True, rtol=1e-6)
-        order = np.argsort(found.wavenumber)
-        q, density = found.wavenumber[order], found.dmu_dlnq[order]
+        result = hot(velocity=velocity, correction=CORRECTIONS[name], contributions=True, rtol=1e-6)
+        order = np.argsort(result.wavenumber)
+        q, density = result.wavenumber[order], result.dmu_dlnq[order]
         heating = asperity.Heating(**TREAD)
         g = asperity.heat_kernel(q[:, None], q[None, :], velocity=velocity, heating=heating)
-        unit = 2 * velocity * 2e5 / (1200 * 1650 * found.macro_area)
+        unit = 2 * velocity * 2e5 / (1200 * 1650 * result.macro_area)
         rise = unit * np.trapezoid(q * g * density, np.log(q), axis=-1)
         with case(velocity=velocity):
-            found_rise = found.temperature_profile[order] - 293.15
+            found_rise = result.temperature_profile[order] - 293.15
             np.testing.assert_allclose(found_rise, rise, rtol=0.01)
             hysteresis = np.trapezoid(density, np.log(q))
-            assert hysteresis == pytest.approx(found.hysteresis, rel=0.01)
-            np.testing.assert_allclose(found.decade_share.sum(), 1, rtol=1e-12)
+            assert hysteresis == pytest.approx(result.hysteresis, rel=0.01)
+            np.testing.assert_allclose(result.decade_share.sum(), 1, rtol=1e-12)
 
 
 @pytest.mark.parametrize("name", list(CORRECTIONS))
@@ -128,28 +128,28 @@ def test_the_estimate_is_kept_and_tight_solutions_agree(name):
         for spectrum in (CUT, ASPHALT):
             truth = hot(spectrum, **given, rtol=1e-10)
             for rtol in (1e-3, 1e-6):
-                found = hot(spectrum, **given, rtol=rtol)
-                assert (found.error_estimate <= rtol * found.mu).all()
-                off = np.abs(found.mu - truth.mu)
-                assert (off <= found.error_estimate + truth.error_estimate).all()
+                result = hot(spectrum, **given, rtol=rtol)
+                assert (result.error_estimate <= rtol * result.mu).all()
+                off = np.abs(result.mu - truth.mu)
+                assert (off <= result.error_estimate + truth.error_estimate).all()
 
 
 def test_the_separation_follows_the_temperature_of_q0():
     """p_T of Greenwood and Williamson at the modulus that the rubber has at T(q0)."""
     correction = CORRECTIONS["gw"]
-    found = hot(velocity=3.0, correction=correction, adhesion=STICKY, contributions=True)
-    at_q0 = found.temperature_profile[0]
+    result = hot(velocity=3.0, correction=correction, adhesion=STICKY, contributions=True)
+    at_q0 = result.temperature_profile[0]
     assert at_q0 > 296
     as_warm = hot(velocity=3.0, correction=correction, temperature=at_q0).cold
-    assert found.shift_factor == pytest.approx(as_warm.shift_factor, rel=1e-9)
-    assert found.shift_factor < found.cold.shift_factor * (1 - 1e-3)
+    assert result.shift_factor == pytest.approx(as_warm.shift_factor, rel=1e-9)
+    assert result.shift_factor < result.cold.shift_factor * (1 - 1e-3)
 
 
 def test_no_contact_makes_no_heat():
     aloft = asperity.GreenwoodWilliamson(z_max=1e-5, z_min=-1e-5)
-    found = hot(velocity=1.0, pressure=1e3, correction=aloft, adhesion=STICKY)
-    assert (found.mu, found.contact_area, found.temperature) == (0, 0, 293.15)
-    assert np.isinf(found.shift_factor)
+    result = hot(velocity=1.0, pressure=1e3, correction=aloft, adhesion=STICKY)
+    assert (result.mu, result.contact_area, result.temperature) == (0, 0, 293.15)
+    assert np.isinf(result.shift_factor)
 
 
 def of_row(row, **more):
@@ -165,15 +165,15 @@ def of_row(row, **more):
 def test_partial_contact_is_that_of_its_definition(reference_table, rtol):
     for row in reference_table("hot_partial_contact"):
         with case(case=row["case"], rtol=rtol):
-            found = of_row(row, rtol=rtol)
-            off = abs(found.hysteresis - row["hysteresis"])
-            assert off <= found.error_estimate + row["rtol"] * row["hysteresis"]
-            assert found.error_estimate <= rtol * found.mu
-            rise = found.temperature - row["temperature"]
+            result = of_row(row, rtol=rtol)
+            off = abs(result.hysteresis - row["hysteresis"])
+            assert off <= result.error_estimate + row["rtol"] * row["hysteresis"]
+            assert result.error_estimate <= rtol * result.mu
+            rise = result.temperature - row["temperature"]
             near = pytest.approx
             assert rise == near(row["rise"], rel=3 * rtol + row["rtol"], abs=2e-13)
-            assert found.contact_area == near(row["contact_area"], rel=3 * rtol + row["rtol"])
-            assert found.macro_area == near(row["macro_area"], rel=3 * rtol + row["rtol"])
+            assert result.contact_area == near(row["contact_area"], rel=3 * rtol + row["rtol"])
+            assert result.macro_area == near(row["macro_area"], rel=3 * rtol + row["rtol"])
 
 
 def test_partial_contact_heats_beyond_the_end_of_its_roughness(reference_table):
@@ -181,13 +181,13 @@ def test_partial_contact_heats_beyond_the_end_of_its_roughness(reference_table):
     inside = 0
     for row in reference_table("hot_partial_contact"):
         with case(case=row["case"]):
-            found = of_row(row, contributions=True, rtol=1e-6)
-            q, density = found.wavenumber, found.dmu_dlnq
+            result = of_row(row, contributions=True, rtol=1e-6)
+            q, density = result.wavenumber, result.dmu_dlnq
             assert q[-1] == pytest.approx(33 * row["end"], rel=1e-9) or q[-1] > 33 * row["end"]
             assert (density[q > 1.001 * row["end"]][:3] > 0).all()
-            assert np.trapezoid(density, np.log(q)) == pytest.approx(found.hysteresis, rel=0.03)
-            np.testing.assert_allclose(found.decade_share.sum(), 1, rtol=1e-12)
-            at_end = np.interp(np.log(row["end"]), np.log(q), found.temperature_profile)
+            assert np.trapezoid(density, np.log(q)) == pytest.approx(result.hysteresis, rel=0.03)
+            np.testing.assert_allclose(result.decade_share.sum(), 1, rtol=1e-12)
+            at_end = np.interp(np.log(row["end"]), np.log(q), result.temperature_profile)
             assert at_end - row["temperature"] == pytest.approx(row["rise_at_end"], rel=0.01)
             top = row["q1"] if row["q1"] is not None else row["table_wavenumber"][-1]
             inside += row["end"] < top / 2
@@ -197,9 +197,9 @@ def test_partial_contact_heats_beyond_the_end_of_its_roughness(reference_table):
 def test_partial_contact_that_heat_does_not_change_is_the_cold_one_to_rounding(reference_table):
     for row in reference_table("hot_partial_contact"):
         with case(case=row["case"]):
-            found = of_row(row, shift=STILL, rtol=1e-12)
-            np.testing.assert_allclose(found.mu, found.cold.mu, rtol=1e-12)
-            np.testing.assert_allclose(found.contact_area, found.cold.contact_area, rtol=1e-12)
+            result = of_row(row, shift=STILL, rtol=1e-12)
+            np.testing.assert_allclose(result.mu, result.cold.mu, rtol=1e-12)
+            np.testing.assert_allclose(result.contact_area, result.cold.contact_area, rtol=1e-12)
 
 
 def measured(noise):
@@ -229,9 +229,9 @@ def test_edges_of_contacts_beyond_the_measured_frequencies(noise):
             "correction": asperity.PartialContact(),
         }
         for spectrum in (road, rings):
-            found = hot(spectrum, **given, shift=STILL, rtol=1e-6)
-            off = np.abs(found.mu - found.cold.mu)
-            assert (off <= found.error_estimate + found.cold.error_estimate).all()
+            result = hot(spectrum, **given, shift=STILL, rtol=1e-6)
+            off = np.abs(result.mu - result.cold.mu)
+            assert (off <= result.error_estimate + result.cold.error_estimate).all()
             warmed, truth = (hot(spectrum, **given, rtol=rtol) for rtol in (1e-5, 1e-6))
             assert (truth.temperature > 294).all()
             off = np.abs(warmed.mu - truth.mu)

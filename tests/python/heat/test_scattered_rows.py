@@ -55,8 +55,8 @@ def test_every_tolerance_is_met(
     """At 1e-6 and without a correction 11 of these 26 velocities were once not solved."""
     finest = hot(seed, correction, 1e-6)
     for rtol in (1e-3, 1e-4, 1e-5):
-        found = hot(seed, correction, rtol)
-        off = np.abs(found.mu - finest.mu)
-        assert np.all(off <= found.error_estimate + finest.error_estimate)
-        area = np.abs(found.contact_area / finest.contact_area - 1)
+        result = hot(seed, correction, rtol)
+        off = np.abs(result.mu - finest.mu)
+        assert np.all(off <= result.error_estimate + finest.error_estimate)
+        area = np.abs(result.contact_area / finest.contact_area - 1)
         assert np.all(area <= rtol + 1e-6)

@@ -18,7 +18,7 @@ def test_reference(row, rtol):
     spectrum = table_rows.tabulated if row["rms_height"] is None else table_rows.self_affine
     names = ("strain", "storage", "loss", "strain_per_slope")
     tread = TREAD | {name: row[name] for name in ("heat_capacity", "residence")}
-    found = hot(
+    result = hot(
         spectrum(row),
         rubber=table_rows.prony(row),
         **{name: row[name] for name in ("pressure", "velocity", "temperature")},
@@ -28,11 +28,11 @@ def test_reference(row, rtol):
         strain_factors=StrainFactors(**{name: row[name] for name in names}),
         rtol=rtol,
     )
-    assert abs(found.hysteresis - row["hysteresis"]) <= found.error_estimate
-    assert found.error_estimate <= rtol * found.mu
-    rise = found.temperature - row["temperature"]
+    assert abs(result.hysteresis - row["hysteresis"]) <= result.error_estimate
+    assert result.error_estimate <= rtol * result.mu
+    rise = result.temperature - row["temperature"]
     assert rise == pytest.approx(row["rise"], rel=3 * rtol)
-    assert found.contact_area == pytest.approx(row["contact_area"], rel=3 * rtol)
+    assert result.contact_area == pytest.approx(row["contact_area"], rel=3 * rtol)
 
 
 W = np.geomspace(1e-5, 1e12, 90)
@@ -58,29 +58,29 @@ def test_constant_factors_are_another_rubber(kind):
     )
     constant = StrainFactors(strain=[0], storage=[f], loss=[g])
     scene = AT | {"correction": kind, "rtol": 1e-5}
-    found, expected = (
+    result, expected = (
         hot(**scene, rubber=CURVE, strain_factors=constant),
         hot(**scene, rubber=scaled),
     )
-    np.testing.assert_allclose(found.mu, expected.mu, rtol=2e-5)
-    np.testing.assert_allclose(found.temperature, expected.temperature, rtol=2e-5)
+    np.testing.assert_allclose(result.mu, expected.mu, rtol=2e-5)
+    np.testing.assert_allclose(result.temperature, expected.temperature, rtol=2e-5)
 
 
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("compound", [None, CURVE])
 def test_no_heat_is_the_cold_contact(kind, compound):
     still = asperity.WLF(c1=1e-12, c2=100.0, reference_temperature=293.15)
-    found = hot(
+    result = hot(
         **AT, correction=kind, rubber=compound, shift=still, strain_factors=PAYNE, rtol=1e-6
     )
-    np.testing.assert_allclose(found.mu, found.cold.mu, rtol=3e-6)
+    np.testing.assert_allclose(result.mu, result.cold.mu, rtol=3e-6)
     assert np.all(
-        abs(found.cold.mu / hot(**AT, correction=kind, rubber=compound).cold.mu - 1) > 0.1
+        abs(result.cold.mu / hot(**AT, correction=kind, rubber=compound).cold.mu - 1) > 0.1
     )
 
 
 def test_sliding_length_and_density_know_the_strain():
-    found = hot(CUT, velocity=1.0, strain_factors=PAYNE, contributions=True, rtol=1e-6)
-    whole = np.trapezoid(found.dmu_dlnq, np.log(found.wavenumber))
-    assert whole == pytest.approx(found.hysteresis, rel=0.01)
-    assert found.sliding_length > 0
+    result = hot(CUT, velocity=1.0, strain_factors=PAYNE, contributions=True, rtol=1e-6)
+    whole = np.trapezoid(result.dmu_dlnq, np.log(result.wavenumber))
+    assert whole == pytest.approx(result.hysteresis, rel=0.01)
+    assert result.sliding_length > 0

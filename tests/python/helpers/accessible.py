@@ -10,10 +10,10 @@ def violations(page: Any) -> list[str]:
     axe = pytest.importorskip(
         "axe_playwright_python.sync_playwright", reason="axe-core comes with asperity[browser]"
     )
-    found = axe.Axe().run(page).response
-    assert len(found["passes"]) > 15
+    result = axe.Axe().run(page).response
+    assert len(result["passes"]) > 15
     return [
         f"{rule['id']}: {node['target']}: {node['failureSummary']}"
-        for rule in found["violations"]
+        for rule in result["violations"]
         for node in rule["nodes"]
     ]

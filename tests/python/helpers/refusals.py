@@ -14,6 +14,6 @@ def refused(
 ) -> Iterator[None]:
     with pytest.raises(error) as caught:
         yield
-    found = caught.value
-    assert (found.argument, found.code) == (argument, code), found
-    assert "\n" not in str(found)
+    result = caught.value
+    assert (result.argument, result.code) == (argument, code), result
+    assert "\n" not in str(result)

@@ -14,13 +14,13 @@ NOISE = 1e-10
 
 def statements(summary: str) -> dict[str, dict[str, str]]:
     """Rows of a summary by their ids."""
-    found = {}
+    result = {}
     for line in summary.splitlines():
         cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)[1:-1]]
         if cells and re.fullmatch(r"[A-Z]\d+", cells[0]):
             names = TESTED if len(cells) == len(TESTED) else UNTESTED
-            found[cells[0]] = dict(zip(names, cells, strict=True))
-    return found
+            result[cells[0]] = dict(zip(names, cells, strict=True))
+    return result
 
 
 def same(one: str, other: str) -> bool:

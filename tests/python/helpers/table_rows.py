@@ -25,9 +25,9 @@ def master_curve(row):
     )
 
 
-def close(row, names, found, scale=None):
+def close(row, names, result, scale=None):
     """Every found number within the row's tolerance of its column, relative unless scaled."""
-    for name, value in zip(names, found, strict=True):
+    for name, value in zip(names, result, strict=True):
         expected = row[name]
         allowed = row["rtol"] * (abs(expected) if scale is None else scale)
         assert abs(value - expected) <= allowed, (name, value, expected, abs(value - expected))

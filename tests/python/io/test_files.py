@@ -17,12 +17,12 @@ from asperity.io.files import check_directory, check_output, write_files, write_
 
 def at_every_line(folder: Path, run: Callable[[], object]) -> list[dict[str, bytes]]:
     """The folder's files as a process would leave them that is killed at a line of `files`."""
-    found = []
+    result = []
 
     def look(frame: object, event: str, _: object) -> object:
         if frame.f_code.co_filename != files.__file__:  # type: ignore[attr-defined]
             return None
-        found.append({p.name: p.read_bytes() for p in folder.rglob("*") if p.is_file()})
+        result.append({p.name: p.read_bytes() for p in folder.rglob("*") if p.is_file()})
         return look
 
     before = sys.gettrace()
@@ -31,7 +31,7 @@ def at_every_line(folder: Path, run: Callable[[], object]) -> list[dict[str, byt
         run()
     finally:
         sys.settrace(before)
-    return found
+    return result
 
 
 COMMANDS = {
@@ -62,15 +62,15 @@ def test_a_command_that_is_killed_leaves_old_files_or_new_ones(
     new = {path.name: path.read_bytes() for path in out.iterdir()}
     old = {name: content + b"old" for name, content in new.items()}
     write_files({out / name: content for name, content in old.items()})
-    found = at_every_line(out, lambda: main(COMMANDS[command]))
-    assert len(found) > 10
-    for left in found:
+    result = at_every_line(out, lambda: main(COMMANDS[command]))
+    assert len(result) > 10
+    for left in result:
         kept = {name: left[name] for name in new}
         assert all(kept[name] in (old[name], new[name]) for name in new)
         strangers = set(left) - set(new)
         assert len(strangers) <= 1
         assert all(name.startswith(".asperity-") for name in strangers)
-    assert found[0] == old
+    assert result[0] == old
     assert {path.name: path.read_bytes() for path in out.iterdir()} == new
     for name in new:
         (out / name).unlink()

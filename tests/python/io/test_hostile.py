@@ -127,19 +127,19 @@ def refused(path: Path, code: str) -> str:
         "    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss",
         "    print((peak - before) // 1024, time.process_time() - begun)",
     ]
-    found = subprocess.run(
+    result = subprocess.run(
         [sys.executable, "-c", "\n".join(lines), str(path)],
         capture_output=True,
         text=True,
         timeout=60,
         check=False,
     )
-    assert found.stderr.count("\n") == 1, found.stderr[:2000]
-    assert "Traceback" not in found.stderr
-    megabytes, seconds = map(float, found.stdout.splitlines()[-1].split())
+    assert result.stderr.count("\n") == 1, result.stderr[:2000]
+    assert "Traceback" not in result.stderr
+    megabytes, seconds = map(float, result.stdout.splitlines()[-1].split())
     assert megabytes < 300
     assert seconds < 10
-    return found.stderr
+    return result.stderr
 
 
 def test_a_file_without_an_end_is_refused(tmp_path: Path) -> None:

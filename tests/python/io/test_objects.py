@@ -16,11 +16,11 @@ MAP = HeightMap(np.random.default_rng(1).normal(size=(20, 31)) * 1e-6, pixel_siz
 LINE = LineScan(np.random.default_rng(1).normal(size=50) * 1e-6, spacing=1e-6)
 
 
-def same(found: HeightMap | LineScan, known: HeightMap | LineScan) -> None:
-    assert type(found) is type(known)
-    np.testing.assert_allclose(found.heights, known.heights, rtol=1e-12)
+def same(result: HeightMap | LineScan, known: HeightMap | LineScan) -> None:
+    assert type(result) is type(known)
+    np.testing.assert_allclose(result.heights, known.heights, rtol=1e-12)
     for name in {"pixel_size", "spacing"} & set(vars(known)):
-        np.testing.assert_allclose(getattr(found, name), getattr(known, name), rtol=1e-9)
+        np.testing.assert_allclose(getattr(result, name), getattr(known, name), rtol=1e-9)
 
 
 @pytest.mark.parametrize("known", [MAP, LINE])

@@ -290,11 +290,11 @@ def test_python_notes_what_a_scene_refuses(name):
     rubber = asperity.PronySeries(
         equilibrium_modulus=equilibrium, moduli=moduli, relaxation_times=[1e-4]
     )
-    found = asperity.friction(road, rubber, pressure=load * 1e5, velocity=[1e-3, 1e-2])
-    notes = [note for note in found.notes if note.next_step.startswith("check the units: ")]
+    result = asperity.friction(road, rubber, pressure=load * 1e5, velocity=[1e-3, 1e-2])
+    notes = [note for note in result.notes if note.next_step.startswith("check the units: ")]
     assert [note.argument for note in notes] == ([] if about is None else [about])
-    small = [note for note in found.notes if note.code == "small-friction"]
-    assert [note.value for note in small] == [found.mu.max()] * bool(found.mu.max() < 1e-4)
+    small = [note for note in result.notes if note.code == "small-friction"]
+    assert [note.value for note in small] == [result.mu.max()] * bool(result.mu.max() < 1e-4)
 
 
 def test_a_slope_that_is_not_reached_says_what_serves(tmp_path):

@@ -38,17 +38,17 @@ def test_names_and_units_of_other_programs(
 ) -> None:
     rows = [f"{t + kelvin},{a:.17g}" for t, a in zip(CELSIUS, shown, strict=True)]
     (tmp_path / "a.csv").write_text("\n".join([head, *rows]), encoding="utf-8")
-    found = read_shift_factors(tmp_path / "a.csv", reference_temperature=293.15)
-    np.testing.assert_allclose(found.temperature, CELSIUS[::-1] + 273.15, rtol=1e-12)
-    np.testing.assert_allclose(found.log10_a_T, SHIFTS[::-1], atol=1e-12)
+    result = read_shift_factors(tmp_path / "a.csv", reference_temperature=293.15)
+    np.testing.assert_allclose(result.temperature, CELSIUS[::-1] + 273.15, rtol=1e-12)
+    np.testing.assert_allclose(result.log10_a_T, SHIFTS[::-1], atol=1e-12)
 
 
 def test_a_table_of_another_reference_is_taken_relative_to_it(tmp_path: Path) -> None:
     rows = [f"{t},{a}" for t, a in zip(CELSIUS, SHIFTS, strict=True)]
     (tmp_path / "a.csv").write_text("\n".join(["T,log_aT", "C,-", *rows]))
     with plausible.collected() as notes:
-        found = read_shift_factors(tmp_path / "a.csv", reference_temperature=273.15)
-    np.testing.assert_allclose(found.log10_a_T, SHIFTS[::-1] - 2, atol=1e-12)
+        result = read_shift_factors(tmp_path / "a.csv", reference_temperature=273.15)
+    np.testing.assert_allclose(result.log10_a_T, SHIFTS[::-1] - 2, atol=1e-12)
     assert [note.code for note in notes] == ["shifts-relative"]
 
 
@@ -131,11 +131,11 @@ def test_prony_terms_are_written_for_other_programs(sweeps: list[str]) -> None:
     pairs = list(zip(map(float, data[::2]), map(float, data[1::2]), strict=True))
     for w in (1e-2, 1e2, 1e6):
         direct = complex(float(relaxed)) + sum(e * 1j * w * t / (1 + 1j * w * t) for e, t in series)
-        for found in (
+        for result in (
             modulus(instantaneous, [(g, tau) for g, _, tau in terms], w),
             modulus(whole, pairs, w),
         ):
-            np.testing.assert_allclose(found, direct, rtol=1e-6)
+            np.testing.assert_allclose(result, direct, rtol=1e-6)
 
 
 @pytest.mark.parametrize(

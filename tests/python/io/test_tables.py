@@ -76,8 +76,8 @@ def test_rows_of_one_frequency_are_averaged_and_any_order_is_read(tmp_path: Path
     check(curve)
     assert [note.code for note in notes] == ["rows-averaged"]
     road = asperity.SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=1e3, q1=1e5)
-    found = asperity.friction(road, curve, pressure=1e5, velocity=[1e-3, 1e-2])
-    assert np.all(found.mu > 0.01)
+    result = asperity.friction(road, curve, pressure=1e5, velocity=[1e-3, 1e-2])
+    assert np.all(result.mu > 0.01)
 
 
 @pytest.mark.parametrize("nothing", ["", "---", "n/a"])

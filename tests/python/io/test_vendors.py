@@ -128,8 +128,8 @@ def test_sheets_of_eplexor(tmp_path: Path) -> None:
     book.save(str(tmp_path / "a.xls"))
     columns = {"frequency": "f", "temperature": "T", "storage": "E'", "loss": "E''"}
     check(read(tmp_path / "a.xls", columns=columns))
-    found = asperity.read_shift_factors(tmp_path / "a.xls", reference_temperature=293.15)
-    np.testing.assert_array_equal(found.log10_a_T, [3, 0, -1.2])
+    result = asperity.read_shift_factors(tmp_path / "a.xls", reference_temperature=293.15)
+    np.testing.assert_array_equal(result.log10_a_T, [3, 0, -1.2])
 
 
 COLUMNS = {"frequency": "f", "temperature": "T", "storage": "E1", "loss": "E2"}

@@ -35,7 +35,7 @@ def test_residuals_are_those_of_the_points_drawn() -> None:
 
 
 def numbers(label: object) -> list[float]:
-    return [float(found) for found in re.findall(r"= (-?[\d.]+(?:e[+-]?\d+)?)", str(label))]
+    return [float(result) for result in re.findall(r"= (-?[\d.]+(?:e[+-]?\d+)?)", str(label))]
 
 
 def labelled(axes: Any, start: str) -> Any:
@@ -107,14 +107,14 @@ def test_the_error_that_a_map_is_certified_for_holds_for_the_colours_drawn(
     monkeypatch.setattr(module, "picture", lambda figure, _: figures.append(figure) or b"")
     module.map_figure(made, errors, Path("map.png"))
     right = figures[0].axes[1]
-    found = re.fullmatch(
+    result = re.fullmatch(
         r"(\d+) cells, certified: ([\d.e-]+); (\d+) of ([\d,]+) random points beyond",
         right.get_title(),
     )
-    assert found is not None
+    assert result is not None
     drawn = np.asarray(right.collections[0].get_array())
-    assert drawn.max() <= float(found[2]) * 1.05
-    assert (found[1], found[3], found[4]) == (str(made.cells), "0", "2,000")
+    assert drawn.max() <= float(result[2]) * 1.05
+    assert (result[1], result[3], result[4]) == (str(made.cells), "0", "2,000")
 
 
 def test_parameters_of_the_adhesion_are_those_of_the_curve_drawn() -> None:
@@ -156,23 +156,23 @@ def test_the_hatched_band_is_the_model_error_of_the_hysteresis(
     monkeypatch.setattr(friction, "picture", lambda figure, path: drawn.append(figure))
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
     scene = load_scene(tmp_path / "scene.toml")
-    found = scene.friction()
-    assert found.model_error is not None
-    known = np.isfinite(found.model_error[0])
+    result = scene.friction()
+    assert result.model_error is not None
+    known = np.isfinite(result.model_error[0])
     assert known.any()
-    friction.friction_figure([scene], [found], tmp_path / "mu.png")
+    friction.friction_figure([scene], [result], tmp_path / "mu.png")
     (axes,) = drawn[0].axes
     hatched = [shape for shape in axes.collections if shape.get_hatch() and shape.get_paths()]
     corners = np.concatenate([path.vertices for path in hatched[0].get_paths()])
     for v, mu, off in zip(
         scene.velocity[known],
-        found.mu[0][known],
-        (found.model_error * found.hysteresis)[0][known],
+        result.mu[0][known],
+        (result.model_error * result.hysteresis)[0][known],
         strict=True,
     ):
         here = corners[np.isclose(corners[:, 0], v, rtol=1e-9), 1]
         assert [here.min(), here.max()] == pytest.approx([mu - off, mu + off], rel=1e-9)
     (line,) = [one for one in axes.lines if "numerical" in str(one.get_label())]
     power = int(re.search(r"10\^\{(-\d+)\}", line.get_label())[1])  # type: ignore[index]
-    worst = float(np.max(found.error_estimate / found.mu))
+    worst = float(np.max(result.error_estimate / result.mu))
     assert 10.0 ** (power - 1) < worst <= 10.0**power

@@ -118,7 +118,7 @@ def module_of(path):
 def imported(path):
     """Modules of the package that a file imports, at any depth of its code, but for the root."""
     known = {module_of(other) for other in PYTHON}
-    found = set()
+    result = set()
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             names = [alias.name for alias in node.names]
@@ -132,8 +132,8 @@ def imported(path):
         ):
             parts = name.split(".")
             longest = [".".join(parts[:n]) for n in (3, 2, 1)]
-            found.update([module for module in longest if module in known][:1])
-    return found - {module_of(path)}
+            result.update([module for module in longest if module in known][:1])
+    return result - {module_of(path)}
 
 
 def test_python_imports_run_one_way():
@@ -171,8 +171,8 @@ def test_bindings_are_thin():
     assert BINDINGS
     for path in BINDINGS:
         text = path.read_text(encoding="utf-8")
-        found = re.findall(r"py::arg|py::kw_only|py::doc|_a\b|R\"", text)
-        assert not found, f"{path.name}: {found}"
+        result = re.findall(r"py::arg|py::kw_only|py::doc|_a\b|R\"", text)
+        assert not result, f"{path.name}: {result}"
         docstrings = re.findall(r'\.def\w*\(\s*"\w+",[^;]*?,\s*"[^"]*"\s*\)', text)
         assert not docstrings, f"{path.name}: {docstrings}"
     assert lines(BINDINGS) <= 0.2 * lines([*HEADERS, *SOURCES])
@@ -184,9 +184,9 @@ def test_no_test_imports_another():
     assert len(names) > 50
     for path in tests:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            found = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
-            found += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
-            for module in found:
+            result = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            result += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
+            for module in result:
                 assert not names & set(module.split(".")), f"{path.name} imports {module}"
 
 

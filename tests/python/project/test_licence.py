@@ -77,8 +77,8 @@ def test_the_installed_distribution_says_it_and_has_the_notices():
     assert set(said.get_all("License-File")) == SHIPPED - {lacking}
     files = {str(path): path for path in installed.files}
     for name in SHIPPED - {lacking}:
-        (found,) = [path for path in files if path.endswith(f".dist-info/licenses/{name}")]
-        assert files[found].read_text("utf-8") == (ROOT / name).read_text("utf-8"), name
+        (result,) = [path for path in files if path.endswith(f".dist-info/licenses/{name}")]
+        assert files[result].read_text("utf-8") == (ROOT / name).read_text("utf-8"), name
 
 
 def sdist_metadata(folder: Path) -> tuple[Message, set[str]]:

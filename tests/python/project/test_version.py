@@ -37,7 +37,7 @@ def test_no_other_source_says_it():
     files = [path for path in files if path.suffix != ".fmap"]
     text = {path: path.read_bytes() for path in files if "__pycache__" not in path.parts}
     said = re.compile(rf"(?<![\d.]){re.escape(VERSION)}(?![\d.])".encode())
-    assert [str(path) for path, found in text.items() if said.search(found)] == []
+    assert [str(path) for path, result in text.items() if said.search(result)] == []
 
 
 def test_what_strangers_ask_for_is_the_series_of_this_version():

@@ -57,10 +57,10 @@ def page(place: Path) -> str:
 @pytest.fixture(scope="module")
 def tree(page: str) -> Element:
     """The page as a strict parser reads it: any error of syntax raises."""
-    found: Element = html5lib.HTMLParser(
+    result: Element = html5lib.HTMLParser(
         strict=True, tree=html5lib.getTreeBuilder("etree"), namespaceHTMLElements=False
     ).parse(page)
-    return found
+    return result
 
 
 def every(tree: Element, name: str) -> Iterator[Element]:

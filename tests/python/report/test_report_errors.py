@@ -122,10 +122,10 @@ def test_scenes_of_other_points_are_computed_where_both_are_known(folder: Path) 
         "other.toml", "2e5", "[1e-4, 1e-2, 0.1, 1]", '[correction]\nkind = "nayak-s-factor"\n'
     )
     (pair,) = compared(["one", "other"], [one, other], [one.friction(), other.friction()])
-    found = [(d.velocity, d.first, d.second) for d in pair.differences]
+    result = [(d.velocity, d.first, d.second) for d in pair.differences]
     velocity = np.array([1e-3, 1e-2, 0.1, 1])  # of both, where their ranges overlap
     mu = [replace(scene, velocity=velocity).friction().mu[0] for scene in (one, other)]
-    assert found == list(zip(velocity, *mu, strict=True))
+    assert result == list(zip(velocity, *mu, strict=True))
 
 
 def test_single_pressures_are_compared_as_they_are(folder: Path) -> None:

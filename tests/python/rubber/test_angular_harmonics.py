@@ -68,9 +68,11 @@ def test_harmonics_of_a_series_are_those_of_the_definition(w):
     compare(SERIES.angular_harmonics(w, 40), of_series(w, 40), 1e-13)
 
 
-def compare(found, expected, tolerance):
+def compare(result, expected, tolerance):
     """Relative to I1, I1 and I2."""
-    for values, truth, scale in zip(found, expected, np.array(expected)[[0, 0, 2], 0], strict=True):
+    for values, truth, scale in zip(
+        result, expected, np.array(expected)[[0, 0, 2], 0], strict=True
+    ):
         np.testing.assert_allclose(values, truth, rtol=0, atol=tolerance * scale)
 
 
@@ -81,10 +83,10 @@ def test_harmonics_of_a_table_are_those_of_the_definition(name):
     definition = Definition(w, storage, loss)
     at = np.exp(np.random.default_rng(7).uniform(np.log(w[0]), np.log(w[-1]), 2))
     at = np.concatenate([at, w[:2], w[:1] * (1 + 1e-6), w[-1:]])
-    found = curve.angular_harmonics(at, 30)
+    result = curve.angular_harmonics(at, 30)
     for n, one in enumerate(at):
         # measured: 3e-9 where rows nearly meet, 5e-10 elsewhere
-        compare([values[n] for values in found], of_table(definition, one, 30), 5e-9)
+        compare([values[n] for values in result], of_table(definition, one, 30), 5e-9)
 
 
 def test_zeroth_harmonics_are_the_angular_integrals_and_more_change_none():

@@ -61,8 +61,8 @@ def parts_outside(series, w):
     "w", [1e-3, 1.0, 9.99, 10.0, 10.001, 12.0, 49.0, 51.0, 300.0, 1e4, 1.0001e4, 3e4, 1e7]
 )
 def test_the_shares_from_beyond_the_fit_are_those_of_the_definition(w):
-    found = BEYOND.extrapolated_shares(w)
-    np.testing.assert_allclose(found, [*parts_outside(BEYOND, w)], rtol=0, atol=1e-10)
+    result = BEYOND.extrapolated_shares(w)
+    np.testing.assert_allclose(result, [*parts_outside(BEYOND, w)], rtol=0, atol=1e-10)
 
 
 def test_a_fit_is_known_on_the_measured_frequencies_only():
@@ -104,16 +104,16 @@ def test_friction_and_area_stay_on_the_fitted_frequencies(velocity):
 
 @pytest.mark.parametrize("velocity", [1e-3, 0.1, 10.0])
 def test_friction_beyond_the_fit_tells_its_share(velocity):
-    found = asperity.friction(ROAD, BEYOND, pressure=1e6, velocity=velocity, contributions=True)
-    outside = BEYOND.extrapolated_shares(velocity * found.wavenumber)[0]
-    part = np.trapezoid(found.dmu_dlnq * outside, np.log(found.wavenumber))
-    assert found.extrapolated_share == pytest.approx(part / found.hysteresis, rel=0.02)
-    assert found.extrapolated_share > 0.1
-    assert sum(SHARE in note for note in found.notes) == 1
+    result = asperity.friction(ROAD, BEYOND, pressure=1e6, velocity=velocity, contributions=True)
+    outside = BEYOND.extrapolated_shares(velocity * result.wavenumber)[0]
+    part = np.trapezoid(result.dmu_dlnq * outside, np.log(result.wavenumber))
+    assert result.extrapolated_share == pytest.approx(part / result.hysteresis, rel=0.02)
+    assert result.extrapolated_share > 0.1
+    assert sum(SHARE in note for note in result.notes) == 1
     if velocity == 10:  # 200 times beyond the measured frequencies
-        assert found.extrapolated_share > 0.9
+        assert result.extrapolated_share > 0.9
     by_definition = asperity.friction(ROAD, BEYOND, pressure=1e6, velocity=velocity, method="qag")
-    assert found.extrapolated_share == pytest.approx(by_definition.extrapolated_share, rel=1e-3)
+    assert result.extrapolated_share == pytest.approx(by_definition.extrapolated_share, rel=1e-3)
 
 
 def test_the_macro_asperities_of_a_correction_are_asked_on_the_fitted_frequencies():
@@ -135,9 +135,9 @@ def test_a_series_given_by_hand_has_no_range():
     w = np.array([0.0, 1.0, 1e9])
     np.testing.assert_array_equal(by_hand.modulus(w), BEYOND.modulus(w))
     np.testing.assert_array_equal(by_hand.extrapolated_shares(w[1:]), 0)
-    found = asperity.friction(ROAD, by_hand, pressure=1e6, velocity=10.0)
-    assert found.extrapolated_share == 0
-    assert found.mu == asperity.friction(ROAD, BEYOND, pressure=1e6, velocity=10.0).mu
+    result = asperity.friction(ROAD, by_hand, pressure=1e6, velocity=10.0)
+    assert result.extrapolated_share == 0
+    assert result.mu == asperity.friction(ROAD, BEYOND, pressure=1e6, velocity=10.0).mu
 
 
 @pytest.mark.parametrize("extrapolation", ["power-law", "clamp", "Prony", 1])

@@ -38,7 +38,7 @@ def test_friction_is_that_of_the_core_in_radians(tmp_path: Path) -> None:
     scene = load_scene(written(tmp_path, RIDGES + RUBBER + TURNED), for_friction=True)
     assert isinstance(scene.spectrum, asperity.SelfAffineSpectrum)
     assert (scene.spectrum.axis_ratio, scene.spectrum.lay) == (2.0, np.radians(30))
-    found = scene.friction()
+    result = scene.friction()
     expected = asperity.friction(
         scene.spectrum,
         scene.rubber,
@@ -46,9 +46,9 @@ def test_friction_is_that_of_the_core_in_radians(tmp_path: Path) -> None:
         velocity=scene.velocity,
         direction=np.radians(75),
     )
-    np.testing.assert_array_equal(found.mu, expected.mu)
-    np.testing.assert_array_equal(found.lateral, expected.lateral)
-    assert np.all(found.lateral != 0)
+    np.testing.assert_array_equal(result.mu, expected.mu)
+    np.testing.assert_array_equal(result.lateral, expected.lateral)
+    assert np.all(result.lateral != 0)
 
 
 def test_the_table_ends_with_the_force_across(tmp_path: Path) -> None:
@@ -62,8 +62,8 @@ def test_the_table_ends_with_the_force_across(tmp_path: Path) -> None:
     assert main(["friction", str(path_of_several), "--output", str(tmp_path / "all.csv")]) == 0
     assert "direction_deg [deg]" in (tmp_path / "all.csv").read_text()
     path = written(tmp_path, RIDGES + RUBBER + TURNED)
-    found = load_scene(path, for_friction=True).friction().lateral.ravel()
-    np.testing.assert_array_equal([float(row[-1]) for row in rows[1:]], found)
+    result = load_scene(path, for_friction=True).friction().lateral.ravel()
+    np.testing.assert_array_equal([float(row[-1]) for row in rows[1:]], result)
     path = written(tmp_path, SURFACE + RUBBER + CONDITIONS)
     assert main(["friction", str(path), "--output", str(tmp_path / "plain.csv")]) == 0
     assert "lateral" not in (tmp_path / "plain.csv").read_text()
@@ -141,12 +141,12 @@ def test_a_band_is_that_of_the_direction(ridged: Path) -> None:
     text = scan + RUBBER + TURNED + "[uncertainty]\nsamples = 20\nseed = 3\n"
     scene = load_scene(written(ridged, text), for_friction=True)
     at = {"pressure": scene.pressure[0], "velocity": scene.velocity[:1]}
-    found = scene.band_at(np.atleast_1d(at["pressure"]), at["velocity"])
+    result = scene.band_at(np.atleast_1d(at["pressure"]), at["velocity"])
     band = asperity.friction_band(
         scene.spectrum, scene.rubber, **at, direction=np.radians(75), samples=20, seed=3
     )
-    np.testing.assert_allclose(found.lower * band.mu, band.lower, rtol=1e-12)
-    np.testing.assert_allclose(found.upper * band.mu, band.upper, rtol=1e-12)
+    np.testing.assert_allclose(result.lower * band.mu, band.lower, rtol=1e-12)
+    np.testing.assert_allclose(result.upper * band.mu, band.upper, rtol=1e-12)
 
 
 @pytest.mark.parametrize("typed", ["", "direction_deg = 0\n"])

@@ -102,8 +102,8 @@ def test_slopes_are_those_of_differences(scene):
         ends = [
             model.log_mu(with_numbers(model.tables, free, x)) for x in (start - step, start + step)
         ]
-        found = (ends[1] - ends[0]) / (2 * step[k])
-        assert by_gradients[:, k] == pytest.approx(found, abs=2e-3 * np.abs(found).max())
+        result = (ends[1] - ends[0]) / (2 * step[k])
+        assert by_gradients[:, k] == pytest.approx(result, abs=2e-3 * np.abs(result).max())
 
 
 def model_of(path, measured):
@@ -253,25 +253,25 @@ def test_a_comparison_has_three_errors(scene):
     """Numbers, inputs, which a law does not know, and the model; and the scatter of the points."""
     path = scene(**TRUTH)
     plain = read_scene(path).friction_at(PRESSURE, VELOCITY)
-    found = fit_scene(path, points(scene, 0.05), scatter=0.05)
-    assert found.model_error == pytest.approx(
+    result = fit_scene(path, points(scene, 0.05), scatter=0.05)
+    assert result.model_error == pytest.approx(
         plain.model_error * plain.hysteresis / plain.mu, nan_ok=True
     )
-    assert found.numbers_error == pytest.approx(plain.error_estimate / plain.mu)
-    assert np.isnan(found.inputs_error).all()
-    known = np.nan_to_num(found.model_error) ** 2 + 0.05**2
-    assert np.log(found.band_upper / found.mu) == pytest.approx(1.96 * np.sqrt(known), rel=1e-3)
-    assert found.inside == np.mean(
-        (found.measured > found.band_lower) & (found.measured < found.band_upper)
+    assert result.numbers_error == pytest.approx(plain.error_estimate / plain.mu)
+    assert np.isnan(result.inputs_error).all()
+    known = np.nan_to_num(result.model_error) ** 2 + 0.05**2
+    assert np.log(result.band_upper / result.mu) == pytest.approx(1.96 * np.sqrt(known), rel=1e-3)
+    assert result.inside == np.mean(
+        (result.measured > result.band_lower) & (result.measured < result.band_upper)
     )
-    assert found.rms == pytest.approx(found.rms_left_out)
+    assert result.rms == pytest.approx(result.rms_left_out)
     for part in (
         "20 measured",
-        f"{100 * found.rms:.2g} % rms",
+        f"{100 * result.rms:.2g} % rms",
         "nothing was fitted",
         "inputs not known",
     ):
-        assert part in found.sentence
+        assert part in result.sentence
     same = {**points(scene), "mu": np.full(20, 0.5)}
     assert "no-better-than-mean" in {note.code for note in fit_scene(path, same).notes}
 

@@ -51,11 +51,11 @@ def of_python(temperature, **more):
 
 
 def test_a_list_of_temperatures_is_a_block_of_rows_each(folder, capsys):
-    found, out = rows(scene("temperature_c = [10, 26.85]"), capsys)
-    assert list(found[0])[-1] == "temperature_k"
+    result, out = rows(scene("temperature_c = [10, 26.85]"), capsys)
+    assert list(result[0])[-1] == "temperature_k"
     assert "temperature_k [K]" in out
     assert "conditions.temperature_c = [10, 26.85]" in out
-    for t, block in ((283.15, found[:10]), (300.0, found[10:])):
+    for t, block in ((283.15, result[:10]), (300.0, result[10:])):
         expected = asperity.friction(
             load_scene(written(scene(f"temperature_k = {t}"))).spectrum,
             asperity.PronySeries(
@@ -72,8 +72,8 @@ def test_a_list_of_temperatures_is_a_block_of_rows_each(folder, capsys):
 
 
 def test_heat_adds_its_columns(folder, capsys):
-    found, _ = rows(scene(more=HEATING), capsys)
-    assert list(found[0])[-3:] == ["temperature_k", "hot_temperature_k", "mu_cold"]
+    result, _ = rows(scene(more=HEATING), capsys)
+    assert list(result[0])[-3:] == ["temperature_k", "hot_temperature_k", "mu_cold"]
     first = load_scene("hot.toml", for_friction=True)
     pressure, velocity = first.points
     expected = asperity.friction(
@@ -91,7 +91,7 @@ def test_heat_adds_its_columns(folder, capsys):
         ("hot_temperature_k", expected.temperature),
         ("mu_cold", expected.cold.mu),
     ):
-        np.testing.assert_allclose([float(row[name]) for row in found], column, rtol=1e-9)
+        np.testing.assert_allclose([float(row[name]) for row in result], column, rtol=1e-9)
 
 
 def test_conditions_and_rubber_may_both_be_the_place_of_one_temperature(folder):

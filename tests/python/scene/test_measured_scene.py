@@ -82,11 +82,11 @@ def test_a_pattern_stands_for_files(dma: Path) -> None:
 def test_notes_say_where_the_modulus_is_extrapolated(dma: Path) -> None:
     _, fastest = known(dma)
     beyond = SCENE.replace("[conditions]", 'extrapolation = "power-law"\n[conditions]')
-    found = loaded(dma, swept(beyond, 3 * fastest, 9.9 * fastest)).friction()
-    share = found.extrapolated_share[0]
+    result = loaded(dma, swept(beyond, 3 * fastest, 9.9 * fastest)).friction()
+    share = result.extrapolated_share[0]
     velocity = np.geomspace(3 * fastest, 9.9 * fastest, 9)
     assert (share <= 1).all()
-    (most,) = [note for note in found.notes if "that of an extrapolated modulus" in note]
+    (most,) = [note for note in result.notes if "that of an extrapolated modulus" in note]
     first = velocity[share > 0.5][0]
     count = (share > 0.5).sum()
     assert 1 < count < 9
@@ -165,9 +165,9 @@ def test_notes_with_heat_are_of_the_rubber_as_it_then_is(dma: Path) -> None:
     text = SCENE.replace("temperature_c = 20", 'extrapolation = "power-law"\ntemperature_c = 20')
     for factor in np.geomspace(1, 9, 7):
         scene = text.replace("{ from = 1e-4, to = 1e-3, points = 9 }", f"{factor * fastest}")
-        found = loaded(dma, scene + HEATING, for_friction=True).friction()
-        told = [note for note in found.notes if "outside of the measured ones" in note]
-        assert len(told) == (found.extrapolated_share.max() > 0.05)
+        result = loaded(dma, scene + HEATING, for_friction=True).friction()
+        told = [note for note in result.notes if "outside of the measured ones" in note]
+        assert len(told) == (result.extrapolated_share.max() > 0.05)
 
 
 def test_a_comparison_has_the_notes_of_the_scene_once_in_its_unit(dma: Path) -> None:

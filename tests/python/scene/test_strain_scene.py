@@ -59,11 +59,11 @@ def by_python(scene, factors):
 def test_rows(folder):
     scene = load_scene(written(SOFT))
     expected = by_python(scene, asperity.StrainFactors(**ROWS))
-    found = scene.friction()
-    assert np.array_equal(found.mu.ravel(), expected.mu)
-    assert "strain-beyond-sweeps" in [note.code for note in found.notes]
+    result = scene.friction()
+    assert np.array_equal(result.mu.ravel(), expected.mu)
+    assert "strain-beyond-sweeps" in [note.code for note in result.notes]
     plain = by_python(scene, None)
-    assert np.all(found.contact_area.ravel() > 2 * plain.contact_area)
+    assert np.all(result.contact_area.ravel() > 2 * plain.contact_area)
 
 
 @pytest.mark.parametrize(("kind", "times"), [("shear", 1), ("peak-to-peak-tension", 2)])

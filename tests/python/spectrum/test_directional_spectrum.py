@@ -30,8 +30,8 @@ def test_an_elliptic_law_is_that_of_k(ratio, rolloff):
     q = np.array([5.0, 11.0, 30.0, 90.0])[:, None] * DQ
     k = k_of(ratio, 0.3, q, phi)
     law = np.maximum(k, rolloff or 0) ** -3.6
-    found = spectrum.toward(q, phi)
-    np.testing.assert_allclose(found / found[0, 0], law / law[0, 0], rtol=1e-9)
+    result = spectrum.toward(q, phi)
+    np.testing.assert_allclose(result / result[0, 0], law / law[0, 0], rtol=1e-9)
     # the mean over directions is C, and the rms height that of the plane
     angles = np.pi * np.arange(20000) / 20000
     for one in (5 * DQ, 30 * DQ):
@@ -78,9 +78,9 @@ def test_harmonics_of_a_ridged_map_are_those_of_its_law(ratio, lay, shape):
     shape_of = k_of(ratio, lay, 1.0, phi) ** -3.6
     shape_of /= shape_of.mean()
     m = np.arange(1, table.cosine.shape[1] + 1)[:, None]
-    for found, law in ((table.cosine, np.cos), (table.sine, np.sin)):
+    for result, law in ((table.cosine, np.cos), (table.sine, np.sin)):
         expected = (law(2 * m * phi) * shape_of).mean(axis=1)
-        np.testing.assert_allclose(found[inside].mean(axis=0), expected, atol=0.01)
+        np.testing.assert_allclose(result[inside].mean(axis=0), expected, atol=0.01)
     assert (table.cosine.shape[1] > 1) == (ratio > 1)
 
 

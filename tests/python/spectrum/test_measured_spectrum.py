@@ -33,12 +33,12 @@ GRIDS = [
 @pytest.mark.parametrize(("shape", "pixel"), GRIDS)
 def test_every_ring_is_that_of_a_plain_transform(shape, pixel, window, detrend):
     z = RNG.normal(size=shape) * 1e-6 + 2e-6
-    found = power_spectrum(HeightMap(z, pixel_size=pixel), window=window, detrend=detrend)
+    result = power_spectrum(HeightMap(z, pixel_size=pixel), window=window, detrend=detrend)
     q, density, count = plain(z, pixel, window, detrend)
-    np.testing.assert_allclose(found.wavenumber, q, rtol=1e-12)
-    np.testing.assert_array_equal(found.count, count)
+    np.testing.assert_allclose(result.wavenumber, q, rtol=1e-12)
+    np.testing.assert_array_equal(result.count, count)
     # a ring that the detrending all but empties keeps the rounding of the whole transform
-    np.testing.assert_allclose(found.density, density, rtol=1e-12, atol=1e-14 * density.max())
+    np.testing.assert_allclose(result.density, density, rtol=1e-12, atol=1e-14 * density.max())
 
 
 @pytest.mark.parametrize("window", ["split-cosine-bell", "hann"])
@@ -60,10 +60,10 @@ def test_the_window_takes_no_variance_from_white_noise(window):
 @pytest.mark.parametrize("offset", [0, 1e4])
 def test_a_float32_map_has_the_spectrum_of_its_own_numbers_in_single_precision(offset):
     z = (RNG.normal(size=(40, 60)) + offset).astype("f4")
-    found = power_spectrum(HeightMap(z, pixel_size=1e-6)).density
+    result = power_spectrum(HeightMap(z, pixel_size=1e-6)).density
     expected = power_spectrum(HeightMap(z.astype(float), pixel_size=1e-6)).density
     # rounding of some ten butterflies at 6e-8 each, squared
-    np.testing.assert_allclose(found, expected, rtol=2e-6)
+    np.testing.assert_allclose(result, expected, rtol=2e-6)
 
 
 @pytest.mark.parametrize("threads", [2, 3, 7])
@@ -97,8 +97,8 @@ def test_a_synthesized_map_has_exactly_the_spectrum_asked_for(spectrum, shape, p
     c[inside] = spectrum.at(q[inside])
     count = np.bincount(ring.ravel())
     expected = np.bincount(ring.ravel(), c.ravel())[1:][count[1:] > 0] / count[1:][count[1:] > 0]
-    found = power_spectrum(surface, window="none", detrend=None)
-    np.testing.assert_allclose(found.density, expected, rtol=1e-9, atol=1e-12 * c.max())
+    result = power_spectrum(surface, window="none", detrend=None)
+    np.testing.assert_allclose(result.density, expected, rtol=1e-9, atol=1e-12 * c.max())
     area = q.size * pixel[0] * pixel[1]
     rms_height = np.sqrt(np.sum(c) * (2 * np.pi) ** 2 / area)
     assert surface.rms_height == pytest.approx(rms_height, rel=1e-12, abs=0)

@@ -56,12 +56,12 @@ def surface(seed, shape, hurst=0.8):
 @pytest.mark.parametrize("window", WINDOWS)
 def test_the_correlation_is_that_of_every_pair_of_modes(window, shape):
     spectrum = asperity.power_spectrum(surface(1, shape), window=window)
-    found = np.zeros(3)
+    result = np.zeros(3)
     lags = min(3, spectrum.correlation.shape[1])
-    found[:lags] = spectrum.correlation[30, :lags]
+    result[:lags] = spectrum.correlation[30, :lags]
     expected = alike(window, shape, range(20, 60))
     # the mean over directions is that of rings of many modes; a strip's have a quarter of them
-    np.testing.assert_allclose(found, expected, atol=0.01 if shape[0] > 40 else 0.02)
+    np.testing.assert_allclose(result, expected, atol=0.01 if shape[0] > 40 else 0.02)
     assert (spectrum.correlation == spectrum.correlation[0]).all()
 
 
@@ -114,16 +114,16 @@ def rows(seed, count=40, lags=2):
     return spectrum, covariance
 
 
-def check_errors(found, shares, covariance):
+def check_errors(result, shares, covariance):
     """Errors and correlation of means that are `shares` of rows of this covariance."""
     expected = shares @ covariance @ shares.T
     error = np.sqrt(np.diag(expected))
-    np.testing.assert_allclose(found.standard_error, error, rtol=1e-9)
+    np.testing.assert_allclose(result.standard_error, error, rtol=1e-9)
     correlation = expected / np.outer(error, error)
     for i in range(error.size):
         for j in range(i + 1, error.size):
             m = j - i - 1
-            known = found.correlation[i, m] if m < found.correlation.shape[1] else 0.0
+            known = result.correlation[i, m] if m < result.correlation.shape[1] else 0.0
             assert known == pytest.approx(correlation[i, j], abs=1e-9)
 
 

@@ -13,14 +13,14 @@ def test_a_faded_tail_is_zero() -> None:
     assert 0 < faded[faded > 0].min() < 1e-280
     for correction in (None, asperity.PartialContact()):
         scene = {"pressure": 1e5, "velocity": 0.01, "correction": correction}
-        found = asperity.friction(
+        result = asperity.friction(
             asperity.TabulatedSpectrum(wavenumber=q, density=faded), rubber, **scene
         )
         zero = np.where(faded < 1e-280, 0, faded)
         same = asperity.friction(
             asperity.TabulatedSpectrum(wavenumber=q, density=zero), rubber, **scene
         )
-        assert found.mu == same.mu > 0
+        assert result.mu == same.mu > 0
     tiny = asperity.TabulatedSpectrum(wavenumber=q, density=np.full(41, 1e-300))
     with pytest.raises(asperity.InvalidInput, match="density = 1e-300"):
         asperity.friction(tiny, rubber, pressure=1e5, velocity=0.01)

@@ -77,9 +77,9 @@ def test_a_frame_of_drop_outs_is_filled_or_refused_by_its_share():
         known = ~np.isnan(surface.heights)
         np.testing.assert_array_equal(filled.heights[known], surface.heights[known])
     # the window brings the frame to zero anyhow
-    found, expected = power_spectrum(thin.fill_dropouts()), power_spectrum(whole)
+    result, expected = power_spectrum(thin.fill_dropouts()), power_spectrum(whole)
     ok = expected.reliable
-    np.testing.assert_allclose(found.density[ok], expected.density[ok], rtol=1e-3)
+    np.testing.assert_allclose(result.density[ok], expected.density[ok], rtol=1e-3)
 
 
 def test_rows_of_drop_outs_cost_little_once_filled():
@@ -88,9 +88,9 @@ def test_rows_of_drop_outs_cost_little_once_filled():
     z[RNG.choice(N, 8, replace=False)] = np.nan
     filled = surface_of(z).fill_dropouts()
     assert np.all(np.isfinite(filled.heights))
-    found = power_spectrum(filled).log_binned()
+    result = power_spectrum(filled).log_binned()
     low = expected.reliable & (expected.wavenumber < 0.3 * WHOLE.q1)
-    np.testing.assert_allclose(found.density[low], expected.density[low], rtol=0.05)
+    np.testing.assert_allclose(result.density[low], expected.density[low], rtol=0.05)
 
 
 @pytest.mark.parametrize("window", ["split-cosine-bell", "hann"])
@@ -168,8 +168,8 @@ def test_stitching_lines_tilt_the_lay_and_raise_the_spectrum():
 @pytest.mark.parametrize("aspect", [1e-3, 1e-2, 1, 100])
 def test_narrow_pixels_are_no_trouble(aspect):
     heights = RNG.normal(size=(64, 64))
-    found = power_spectrum(HeightMap(heights, pixel_size=(aspect * 1e-6, 1e-6)), window="none")
-    assert found.count.sum() == 64**2 - 1
+    result = power_spectrum(HeightMap(heights, pixel_size=(aspect * 1e-6, 1e-6)), window="none")
+    assert result.count.sum() == 64**2 - 1
 
 
 PLANE = (power_spectrum, spectral_density, anisotropy)

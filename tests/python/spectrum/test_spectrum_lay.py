@@ -45,13 +45,13 @@ def test_slopes_and_direction_are_those_of_the_definition(shape, pixel, window):
     z = np.cumsum(np.random.default_rng(5).normal(size=shape), axis=1)
     surface = HeightMap(z, pixel_size=pixel)
     q_min, q_max = 0.3, 0.9 * np.pi / max(pixel)
-    found = anisotropy(surface, window=window, q_min=q_min, q_max=q_max)
+    result = anisotropy(surface, window=window, q_min=q_min, q_max=q_max)
     across, along, direction = from_definition(surface, window, q_min, q_max)
-    assert found.across == pytest.approx(across, rel=1e-11)
-    assert found.along == pytest.approx(along, rel=1e-11)
-    assert found.ratio == pytest.approx(across / along, rel=1e-11)
-    assert apart(found.direction, direction) < 1e-9
-    assert -np.pi / 2 < found.direction <= np.pi / 2
+    assert result.across == pytest.approx(across, rel=1e-11)
+    assert result.along == pytest.approx(along, rel=1e-11)
+    assert result.ratio == pytest.approx(across / along, rel=1e-11)
+    assert apart(result.direction, direction) < 1e-9
+    assert -np.pi / 2 < result.direction <= np.pi / 2
 
 
 def test_an_isotropic_surface_has_no_lay():
@@ -68,10 +68,10 @@ def test_a_stretched_surface_has_the_ratio_of_its_stretch(pixel, lay):
     surface = synthesize(BAND, shape=(N, N), pixel_size=PIXEL, seed=2)
     stretched = HeightMap(surface.heights, pixel_size=pixel)
     band = {"q_min": DQ / 4, "q_max": BAND.q1 * 2}
-    found = anisotropy(stretched, window="none", detrend=None, **band)
-    assert found.ratio == pytest.approx(3, rel=1e-9)
-    assert apart(found.direction, lay) < 1e-9
-    assert found.across == pytest.approx(BAND.rms_slope / np.sqrt(2), rel=0.02)
+    result = anisotropy(stretched, window="none", detrend=None, **band)
+    assert result.ratio == pytest.approx(3, rel=1e-9)
+    assert apart(result.direction, lay) < 1e-9
+    assert result.across == pytest.approx(BAND.rms_slope / np.sqrt(2), rel=0.02)
 
 
 @pytest.mark.parametrize("window", ["split-cosine-bell", "hann"])
@@ -80,7 +80,7 @@ def test_a_band_of_a_stretched_surface_has_the_slopes_of_its_spectrum(window):
     whole = synthesize(BAND, shape=(2 * N, 2 * N), pixel_size=PIXEL, seed=7)
     crop = whole.heights[:N, :N].copy()
     q_min, q_max = 16 * DQ, np.pi / (3 * PIXEL) / 2
-    found = anisotropy(
+    result = anisotropy(
         HeightMap(crop, pixel_size=(3 * PIXEL, PIXEL)), window=window, q_min=q_min, q_max=q_max
     )
     angle = (np.arange(720) + 0.5) * np.pi / 720
@@ -88,9 +88,9 @@ def test_a_band_of_a_stretched_surface_has_the_slopes_of_its_spectrum(window):
     stretch = np.hypot(np.cos(angle), 3 * np.sin(angle))[:, None] * q
     moment = np.trapezoid(3 * BAND.at(stretch) * q**4, np.log(q), axis=1)
     expected = np.sqrt(np.sum(moment * np.cos(angle) ** 2) / np.sum(moment * np.sin(angle) ** 2))
-    assert found.ratio == pytest.approx(expected, rel=0.03)
+    assert result.ratio == pytest.approx(expected, rel=0.03)
     assert expected > 2  # in a round band not 3: it holds more of the waves that run along x
-    assert apart(found.direction, np.pi / 2) < np.radians(2)
+    assert apart(result.direction, np.pi / 2) < np.radians(2)
 
 
 def turned(degrees, seed, hurst=0.8):
@@ -109,9 +109,9 @@ def turned(degrees, seed, hurst=0.8):
 @pytest.mark.parametrize("window", ["split-cosine-bell", "hann"])
 @pytest.mark.parametrize("degrees", [30, -30, 75, 90])
 def test_the_lay_of_a_turned_surface_is_found(degrees, window):
-    found = anisotropy(turned(degrees, 3), window=window)
-    assert apart(found.direction, np.radians(degrees)) < np.radians(2)
-    assert 2 < found.ratio < 3
+    result = anisotropy(turned(degrees, 3), window=window)
+    assert apart(result.direction, np.radians(degrees)) < np.radians(2)
+    assert 2 < result.ratio < 3
 
 
 def test_grooves_run_from_x_towards_rising_rows():

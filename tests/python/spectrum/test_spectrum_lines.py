@@ -33,8 +33,8 @@ def test_line_density_is_the_integral_of_its_definition(row):
         spectrum = TabulatedSpectrum(
             wavenumber=row["table_wavenumber"], density=row["table_density"]
         )
-    found = spectrum.line_density(row["wavenumber"])
-    assert found == pytest.approx(row["line_density"], rel=row["rtol"], abs=0)
+    result = spectrum.line_density(row["wavenumber"])
+    assert result == pytest.approx(row["line_density"], rel=row["rtol"], abs=0)
 
 
 @pytest.mark.parametrize("hurst", [0.01, 0.3, 0.5, 0.8, 1.0])
@@ -65,9 +65,9 @@ def test_isotropic_restores_a_power_law(hurst, rows):
     q = np.geomspace(1e3, 1e6, rows)
     c = 1e-5 * q ** (-2 * hurst - 2)
     profiles = LineSpectrum(wavenumber=q, density=abel_factor(hurst) * q * c)
-    found = profiles.isotropic(per_decade=None)
-    np.testing.assert_array_equal(found.wavenumber, q)
-    np.testing.assert_allclose(found.density, c, rtol=1e-11)
+    result = profiles.isotropic(per_decade=None)
+    np.testing.assert_array_equal(result.wavenumber, q)
+    np.testing.assert_allclose(result.density, c, rtol=1e-11)
 
 
 def round_trip(hurst, per_decade):
@@ -76,8 +76,8 @@ def round_trip(hurst, per_decade):
     spectrum = SelfAffineSpectrum(rms_height=1e-5, hurst=hurst, q0=1.0, q1=1e16, rolloff=knee)
     q = np.geomspace(knee / 100, knee * 10, 3 * per_decade + 1)
     profiles = LineSpectrum(wavenumber=q, density=spectrum.line_density(q))
-    found = profiles.isotropic(per_decade=None).density
-    return q / knee, np.abs(found / spectrum.at(q) - 1)
+    result = profiles.isotropic(per_decade=None).density
+    return q / knee, np.abs(result / spectrum.at(q) - 1)
 
 
 @pytest.mark.parametrize("hurst", [long(0.3), 0.8, long(1.0)])
@@ -111,8 +111,8 @@ def test_rows_of_a_map_tell_the_spectrum_of_the_surface(hurst):
             surface = HeightMap(whole.heights[crop], pixel_size=PIXEL)
             lines = line_spectrum(surface)
             rings = power_spectrum(surface).log_binned()
-            found = {"isotropic": lines.isotropic(), "map": rings}
-            for name, spectrum in found.items():
+            result = {"isotropic": lines.isotropic(), "map": rings}
+            for name, spectrum in result.items():
                 # the surface ends at Nyquist, a power law does not: its last rows differ
                 ok = spectrum.reliable & (spectrum.wavenumber < 0.45 * truth.q1)
                 expected = truth.at(spectrum.wavenumber[ok])
@@ -140,17 +140,17 @@ def test_line_spectrum_is_that_of_a_plain_transform(window, detrend, n, rows):
     z = np.random.default_rng(n + rows).normal(size=(max(rows, 1), n)) * 1e-6 + 2e-6
     dx = 0.7e-6
     scan = HeightMap(z, pixel_size=(3e-6, dx)) if rows else LineScan(z[0], spacing=dx)
-    found = line_spectrum(scan, window=window, detrend=detrend)
+    result = line_spectrum(scan, window=window, detrend=detrend)
     w, u = profile(window, n), np.linspace(-1, 1, n)
     degree = {"offset": 0, "plane": 1, "quadratic": 2}.get(detrend)
     flat = z if degree is None else z - [np.polyval(np.polyfit(u, row, degree), u) for row in z]
     power = np.abs(np.fft.rfft(flat * w)) ** 2
     expected = (power * n * dx / (2 * np.pi * n**2) / np.mean(w**2)).mean(axis=0)[1:]
     q = 2 * np.pi * np.fft.rfftfreq(n, dx)[1:]
-    np.testing.assert_allclose(found.wavenumber, q, rtol=1e-14)
-    np.testing.assert_allclose(found.density, expected, rtol=1e-10, atol=1e-13 * expected.max())
+    np.testing.assert_allclose(result.wavenumber, q, rtol=1e-14)
+    np.testing.assert_allclose(result.density, expected, rtol=1e-10, atol=1e-13 * expected.max())
     if window == "none" and detrend is not None:
-        total = np.sum(found.density * found.count) / len(z) * 2 * np.pi / (n * dx)
+        total = np.sum(result.density * result.count) / len(z) * 2 * np.pi / (n * dx)
         assert total == pytest.approx(np.mean(flat**2), rel=1e-9, abs=0)
 
 
@@ -160,15 +160,15 @@ def test_line_spectrum_is_that_of_a_plain_transform(window, detrend, n, rows):
 def test_a_part_of_a_profile_is_its_clipped_heights_over_their_share(detrend, rows, part):
     z = np.random.default_rng(rows).gumbel(size=(max(rows, 1), 210)) * 1e-6 + 2e-6
     scan = HeightMap(z, pixel_size=1e-6) if rows else LineScan(z[0], spacing=1e-6)
-    found = line_spectrum(scan, detrend=detrend, part=part)
+    result = line_spectrum(scan, detrend=detrend, part=part)
     u = np.arange(210)
     flat = z if detrend is None else z - [np.polyval(np.polyfit(u, row, 1), u) for row in z]
     about = flat - flat.mean(axis=1, keepdims=True)
     clipped = np.maximum(about, 0) if part == "top" else np.minimum(about, 0)
     whole = line_spectrum(HeightMap(clipped, pixel_size=1e-6), detrend="offset")
-    np.testing.assert_allclose(found.density, whole.density / np.mean(clipped != 0), rtol=1e-9)
-    assert found.skewness is None
-    assert np.array_equal(found.count, whole.count)
+    np.testing.assert_allclose(result.density, whole.density / np.mean(clipped != 0), rtol=1e-9)
+    assert result.skewness is None
+    assert np.array_equal(result.count, whole.count)
 
 
 def test_a_flat_profile_has_no_top():
@@ -177,8 +177,8 @@ def test_a_flat_profile_has_no_top():
 
 def test_line_spectrum_of_a_float32_scan_is_that_of_its_own_numbers():
     z = np.random.default_rng(2).normal(size=500).astype("f4")
-    found = line_spectrum(LineScan(z, spacing=1e-6))
-    assert found == line_spectrum(LineScan(z.astype(float), spacing=1e-6))
+    result = line_spectrum(LineScan(z, spacing=1e-6))
+    assert result == line_spectrum(LineScan(z.astype(float), spacing=1e-6))
 
 
 def test_line_spectrum_looks_along_the_rows():

@@ -31,15 +31,15 @@ ORDERS = ["plane", "quadratic", "offset", None]
 )
 def test_the_plane_is_that_of_a_plain_transform(shape, pixel, window, detrend):
     z = RNG.normal(size=shape) + 2
-    found = spectral_density(HeightMap(z, pixel_size=pixel), window=window, detrend=detrend)
+    result = spectral_density(HeightMap(z, pixel_size=pixel), window=window, detrend=detrend)
     w = np.outer(*(profile(window, n) for n in shape))
     area = z.size * pixel[0] * pixel[1]
     power = np.abs(np.fft.fft2(detrended(z, detrend) * w)) ** 2 / z.size**2
     expected = np.fft.fftshift(power) * area / (2 * np.pi) ** 2 / np.mean(w**2)
     for axis, name in enumerate(("wavenumber_y", "wavenumber_x")):
         q = 2 * np.pi * np.fft.fftshift(np.fft.fftfreq(shape[axis], pixel[axis]))
-        np.testing.assert_allclose(getattr(found, name), q, rtol=1e-14)
-    np.testing.assert_allclose(found.density, expected, rtol=1e-11, atol=1e-15 * expected.max())
+        np.testing.assert_allclose(getattr(result, name), q, rtol=1e-14)
+    np.testing.assert_allclose(result.density, expected, rtol=1e-11, atol=1e-15 * expected.max())
 
 
 @pytest.mark.parametrize("part", ["top", "bottom"])
@@ -48,15 +48,17 @@ def test_the_plane_is_that_of_a_plain_transform(shape, pixel, window, detrend):
 def test_a_top_spectrum_is_that_of_the_clipped_heights_over_their_share(window, detrend, part):
     y, x = np.indices((48, 64))
     z = RNG.gumbel(size=(48, 64)) + 0.05 * y - 0.02 * x
-    found = power_spectrum(HeightMap(z, pixel_size=1e-6), window=window, detrend=detrend, part=part)
+    result = power_spectrum(
+        HeightMap(z, pixel_size=1e-6), window=window, detrend=detrend, part=part
+    )
     above = detrended(z, detrend)
     above = above - above.mean()
     share = np.mean(above > 0 if part == "top" else above < 0)
     clipped = np.maximum(above, 0) if part == "top" else np.minimum(above, 0)
     q, density, count = plain(clipped, (1e-6, 1e-6), window, "offset")
-    np.testing.assert_allclose(found.wavenumber, q, rtol=1e-12)
-    np.testing.assert_array_equal(found.count, count)
-    np.testing.assert_allclose(found.density, density / share, rtol=1e-10)
+    np.testing.assert_allclose(result.wavenumber, q, rtol=1e-12)
+    np.testing.assert_array_equal(result.count, count)
+    np.testing.assert_allclose(result.density, density / share, rtol=1e-10)
 
 
 BAND = SelfAffineSpectrum(rms_height=1e-5, hurst=0.8, q0=2 * np.pi / 64e-6, q1=np.pi / 1e-6)
@@ -95,7 +97,7 @@ def everything(unit):
         1 + 0.1 * np.sin(9 * q * unit)
     )
     rolled = fit_self_affine(TabulatedSpectrum(wavenumber=q, density=1e-20 * unit**4 * knee))
-    found = {
+    result = {
         "rings": rows(spectra[0], 4),
         "top": rows(power_spectrum(surface, part="top"), 4),
         "lines": rows(profiles, 3),
@@ -116,7 +118,7 @@ def everything(unit):
     }
     # found where a parabola is least: to the root of the rounding
     loose = {"rolloff": (rolled.rolloff, -1), "error": (rolled.standard_errors["rolloff"], -1)}
-    return found, loose
+    return result, loose
 
 
 @pytest.mark.parametrize("unit", [1e-6, 1e6])

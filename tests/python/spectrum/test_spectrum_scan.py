@@ -83,9 +83,9 @@ def test_detrend_takes_out_a_polynomial(order, degree, gaps):
         heights[RNG.random(ROUGH.size) < 0.08] = np.nan
     known = ~np.isnan(heights)
     line = np.polyval(np.polyfit(u[known], heights[known], degree), u)
-    found = LineScan(heights, spacing=SPACING).detrend(order)
-    assert isinstance(found, LineScan)
-    np.testing.assert_allclose(found.heights, heights - line, atol=1e-18)
+    result = LineScan(heights, spacing=SPACING).detrend(order)
+    assert isinstance(result, LineScan)
+    np.testing.assert_allclose(result.heights, heights - line, atol=1e-18)
 
 
 def test_filling_is_linear_between_neighbours_and_nearest_beyond_the_ends():
@@ -118,12 +118,12 @@ def greedy(z, min_distance, periodic):
 @pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("min_distance", [1e-9, 1.7e-6, 9.3e-6, 1e-3])
 def test_peaks_are_those_of_the_plain_greedy_search(min_distance, periodic):
-    found = LineScan(ROUGH, spacing=SPACING).local_peaks(
+    result = LineScan(ROUGH, spacing=SPACING).local_peaks(
         min_distance=min_distance, periodic=periodic
     )
     expected = greedy(ROUGH, min_distance, periodic)
-    assert len(found) == len(expected) > 0
-    np.testing.assert_allclose(found, expected, rtol=1e-10)
+    assert len(result) == len(expected) > 0
+    np.testing.assert_allclose(result, expected, rtol=1e-10)
 
 
 def test_an_affine_shift_keeps_the_highest_point():

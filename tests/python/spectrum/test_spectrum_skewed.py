@@ -34,10 +34,10 @@ def test_skewness_is_met_and_the_spectrum_stays_exact(skewness):
         assert surface.skewness == pytest.approx(moment(surface.heights, 3), abs=1e-12)
         plain = synthesize(BAND, **GRID, seed=seed)
         options = {"window": "none", "detrend": None}
-        found, expected = (power_spectrum(s, **options).density for s in (surface, plain))
+        result, expected = (power_spectrum(s, **options).density for s in (surface, plain))
         inside = expected > 1e-12 * expected.max()
-        np.testing.assert_allclose(found[inside], expected[inside], rtol=1e-10)
-        assert np.all(found[~inside] < 1e-20 * expected.max())
+        np.testing.assert_allclose(result[inside], expected[inside], rtol=1e-10)
+        assert np.all(result[~inside] < 1e-20 * expected.max())
         assert surface.rms_height == pytest.approx(plain.rms_height, rel=1e-12, abs=0)
 
 
@@ -109,10 +109,10 @@ def test_peaks_of_self_affine_surfaces_shift_as_the_article_says():
     spectrum = SelfAffineSpectrum(
         rms_height=1e-5, hurst=0.8, q0=2 * np.pi / longest, q1=np.pi / PIXEL
     )
-    found = {1: [], 2: []}
+    result = {1: [], 2: []}
     for seed in range(4):
         surface = synthesize(spectrum, shape=(n, n), pixel_size=PIXEL, seed=seed)
-        for part, values in found.items():
+        for part, values in result.items():
             distance = longest / part
             peaks = surface.local_peaks(min_distance=distance, periodic=True)
             values.append(surface.z_max / (surface.z_max - peaks.mean()))
@@ -124,5 +124,5 @@ def test_peaks_of_self_affine_surfaces_shift_as_the_article_says():
             inner = surface.local_peaks(min_distance=distance)
             expected = surface.z_max / (surface.z_max - inner.mean())
             assert shift.shift_factor == pytest.approx(expected, rel=1e-12)
-    assert np.mean(found[1]) == pytest.approx(2.5, rel=0.15)
-    assert np.mean(found[2]) == pytest.approx(2.0, rel=0.15)
+    assert np.mean(result[1]) == pytest.approx(2.5, rel=0.15)
+    assert np.mean(result[2]) == pytest.approx(2.0, rel=0.15)

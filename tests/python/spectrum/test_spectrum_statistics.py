@@ -33,12 +33,12 @@ def crops(hurst):
     spectrum = SelfAffineSpectrum(
         rms_height=1e-5, hurst=hurst, q0=2 * np.pi / (2048 * PIXEL), q1=np.pi / PIXEL
     )
-    found = []
+    result = []
     for seed in range(5):
         whole = synthesize(spectrum, shape=(2048, 2048), pixel_size=PIXEL, seed=seed)
         crop = whole.heights[512:1536, 300:1324].copy()
-        found.append(HeightMap(crop, pixel_size=PIXEL))
-    return found
+        result.append(HeightMap(crop, pixel_size=PIXEL))
+    return result
 
 
 def misses(surfaces, hurst, window, **band):
@@ -145,8 +145,8 @@ def test_a_roll_off_of_an_exact_spectrum_comes_back():
 
 
 def test_no_roll_off_is_found_where_none_is():
-    found = [fit_self_affine(power_spectrum(s)).rolloff for s in quarters(0.5, 15)]
-    assert found == [None] * 30
+    result = [fit_self_affine(power_spectrum(s)).rolloff for s in quarters(0.5, 15)]
+    assert result == [None] * 30
 
 
 def test_a_roll_off_that_the_scan_does_not_reach_is_refused_with_the_reason():
@@ -182,8 +182,10 @@ def test_errors_of_fits_cover_the_truth_beside_a_roll_off(window, periods, first
 
     tests/stability/fit_coverage.py takes 400 crops, of more roll-offs."""
     band = {"q_min": 2 * np.pi / 256 * first} if first else {}
-    found = [(h, *fitted(s, window, **band)[:2]) for h, s in scans("filtered", periods, 256, 45, 3)]
-    truth, hurst, error = np.array(found).T
+    result = [
+        (h, *fitted(s, window, **band)[:2]) for h, s in scans("filtered", periods, 256, 45, 3)
+    ]
+    truth, hurst, error = np.array(result).T
     # 95 % of 45: 43, and below 38 once in 300 draws of a binomial
     assert np.sum(np.abs(hurst - truth) < 1.96 * error) >= 38
     assert np.sqrt(np.mean((hurst - truth) ** 2)) < 1.3 * np.median(error)
@@ -196,7 +198,7 @@ def test_a_choice_that_the_rows_leave_open_is_in_the_error():
     both = [(fit_self_affine(s, **low), fit_self_affine(s, rolloff="none", **low)) for s in spectra]
     assert {fit.rolloff is None for fit, _ in both} == {True, False}
     errors = [[fit.standard_errors["hurst"] for fit in pair] for pair in both]
-    ratio = np.array([found / straight for found, straight in errors])
+    ratio = np.array([result / straight for result, straight in errors])
     doubtful = np.array([fit.rolloff is None for fit, _ in both])
     # a line that is taken for the truth has the error of its own scatter alone
     assert (ratio[doubtful] >= 1).all()

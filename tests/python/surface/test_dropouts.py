@@ -109,13 +109,13 @@ def test_a_plane_comes_back_wherever_measured_points_lie_around(pattern, dtype):
 @pytest.mark.parametrize("pattern", PATTERNS)
 def test_outside_of_the_hull_the_nearest_height_in_it_is_taken(pattern):
     missing = PATTERNS[pattern]
-    found = filled(np.where(missing, NAN, RNG.normal(size=missing.shape)))
+    result = filled(np.where(missing, NAN, RNG.normal(size=missing.shape)))
     hull = in_hull(missing)
     known = np.argwhere(hull)
     for p in np.argwhere(~hull):
         distance = np.hypot(*((known - p) * PIXEL).T)
         nearest = known[distance <= distance.min() * (1 + 1e-12)]
-        assert found[tuple(p)] in found[tuple(nearest.T)]
+        assert result[tuple(p)] in result[tuple(nearest.T)]
 
 
 @pytest.mark.parametrize("pattern", PATTERNS)
@@ -124,8 +124,8 @@ def test_the_unit_of_length_does_not_matter(pattern, unit):
     missing = PATTERNS[pattern]
     heights = np.where(missing, NAN, RNG.normal(size=missing.shape))
     expected = filled(heights)
-    found = filled(unit * heights, pixel_size=(unit * PIXEL[0], unit * PIXEL[1]))
-    np.testing.assert_allclose(found / unit, expected, rtol=0, atol=1e-13)
+    result = filled(unit * heights, pixel_size=(unit * PIXEL[0], unit * PIXEL[1]))
+    np.testing.assert_allclose(result / unit, expected, rtol=0, atol=1e-13)
 
 
 @pytest.mark.parametrize("name", ["isolated", "large hole", "edge", "corner", "flat corner"])
@@ -153,10 +153,10 @@ def test_an_isolated_point_is_the_mean_of_both_lines_by_the_cube_of_their_nearne
 def test_a_point_on_the_edge_and_a_missing_row_have_one_line_to_go_by():
     heights = ROUGH.copy()
     heights[0, 4] = heights[6, 0] = heights[15] = NAN
-    found = filled(heights)
-    assert found[0, 4] == pytest.approx(ROUGH[0, [3, 5]].mean(), rel=1e-13, abs=0)
-    assert found[6, 0] == pytest.approx(ROUGH[[5, 7], 0].mean(), rel=1e-13, abs=0)
-    np.testing.assert_allclose(found[15], ROUGH[[14, 16]].mean(axis=0), rtol=0, atol=1e-20)
+    result = filled(heights)
+    assert result[0, 4] == pytest.approx(ROUGH[0, [3, 5]].mean(), rel=1e-13, abs=0)
+    assert result[6, 0] == pytest.approx(ROUGH[[5, 7], 0].mean(), rel=1e-13, abs=0)
+    np.testing.assert_allclose(result[15], ROUGH[[14, 16]].mean(axis=0), rtol=0, atol=1e-20)
 
 
 def test_deep_in_a_hole_the_diagonals_count_too():
@@ -203,8 +203,8 @@ def test_on_a_self_affine_map_the_error_is_below_that_of_rows_alone(pattern, sha
         missing[:80, 88:168] |= pattern == "edge"
     heights = np.where(missing, NAN, surface.heights)
 
-    def error(found):
-        return np.sqrt(np.mean((found - surface.heights)[missing] ** 2))
+    def error(result):
+        return np.sqrt(np.mean((result - surface.heights)[missing] ** 2))
 
     ours = error(filled(heights, pixel, max_fraction=0.1))
     assert ours <= share * error(along_rows(heights))

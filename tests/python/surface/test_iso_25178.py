@@ -11,22 +11,22 @@ PIXEL = 1e-6
 
 def test_of_a_surface_with_known_ones() -> None:
     y, x = np.mgrid[:128, :128] * 2 * np.pi / 16
-    found = HeightMap(1e-6 * np.cos(x) * np.cos(y), pixel_size=PIXEL).iso_25178
-    assert found["Sq"] == pytest.approx(0.5e-6, rel=1e-12, abs=0)
-    assert found["Sku"] == pytest.approx(2.25, rel=1e-9)
-    assert found["Sz"] == pytest.approx(2e-6, rel=1e-12, abs=0)
-    assert found["Sp"] + found["Sv"] == pytest.approx(found["Sz"], rel=1e-12, abs=0)
+    result = HeightMap(1e-6 * np.cos(x) * np.cos(y), pixel_size=PIXEL).iso_25178
+    assert result["Sq"] == pytest.approx(0.5e-6, rel=1e-12, abs=0)
+    assert result["Sku"] == pytest.approx(2.25, rel=1e-9)
+    assert result["Sz"] == pytest.approx(2e-6, rel=1e-12, abs=0)
+    assert result["Sp"] + result["Sv"] == pytest.approx(result["Sz"], rel=1e-12, abs=0)
     slope = np.sqrt(0.5) * 1e-6 * np.sin(2 * np.pi / 16) / PIXEL  # of central differences
-    assert found["Sdq"] == pytest.approx(slope, rel=0.02)
+    assert result["Sdq"] == pytest.approx(slope, rel=0.02)
     inside = 128 - 15  # two peaks in each of 64 squares, without those on the edge
-    assert found["Spd"] == pytest.approx(inside / (127 * PIXEL) ** 2, rel=1e-12)
+    assert result["Spd"] == pytest.approx(inside / (127 * PIXEL) ** 2, rel=1e-12)
 
 
 def test_the_area_of_a_tilted_plane() -> None:
     y, x = np.mgrid[:9, :7] * PIXEL
-    found = HeightMap(0.3 * x + 0.4 * y, pixel_size=PIXEL).iso_25178
-    assert found["Sdr"] == pytest.approx(np.sqrt(1.25) - 1, rel=1e-9)
-    assert found["Spd"] == 0
+    result = HeightMap(0.3 * x + 0.4 * y, pixel_size=PIXEL).iso_25178
+    assert result["Sdr"] == pytest.approx(np.sqrt(1.25) - 1, rel=1e-9)
+    assert result["Spd"] == 0
 
 
 def hills(z: np.ndarray) -> int:
@@ -50,16 +50,16 @@ def test_hills_are_those_that_stand_above_their_saddles(seed: int) -> None:
     for _ in range(seed % 3):  # smoother ones too
         z = z + np.roll(z, 1, 0) + np.roll(z, 1, 1)
     z = z + 0.02 * rng.normal(size=z.shape)
-    found = HeightMap(z * 1e-6, pixel_size=PIXEL).iso_25178
-    assert found["Spd"] * 23 * 19 * PIXEL**2 == pytest.approx(hills(z), abs=1e-6)
+    result = HeightMap(z * 1e-6, pixel_size=PIXEL).iso_25178
+    assert result["Spd"] * 23 * 19 * PIXEL**2 == pytest.approx(hills(z), abs=1e-6)
 
 
 def test_dropouts_leave_the_hills_out() -> None:
     z = np.random.default_rng(1).normal(size=(20, 20))
     z[3, 4] = np.nan
-    found = HeightMap(z, pixel_size=1.0).iso_25178
-    assert "Spd" not in found
-    assert np.isfinite(list(found.values())).all()
+    result = HeightMap(z, pixel_size=1.0).iso_25178
+    assert "Spd" not in result
+    assert np.isfinite(list(result.values())).all()
 
 
 def test_the_verb_tells_them(

@@ -51,8 +51,8 @@ def test_scan_as_it_is(source: str, name: str, file_of: Callable[[str, str], Pat
         shape, distance, rms_height, dropouts = MEASURED[name]
     assert isinstance(scan, HeightMap if len(shape) == 2 else LineScan)
     assert scan.heights.shape == shape
-    found = scan.pixel_size if isinstance(scan, HeightMap) else scan.spacing
-    assert found == pytest.approx(distance, rel=1e-7, abs=0)
+    result = scan.pixel_size if isinstance(scan, HeightMap) else scan.spacing
+    assert result == pytest.approx(distance, rel=1e-7, abs=0)
     assert scan.detrend("plane").rms_height == pytest.approx(rms_height, rel=1e-5, abs=0)
     assert scan.dropout_fraction == pytest.approx(dropouts, rel=1e-12, abs=0)
 

@@ -46,11 +46,11 @@ LAYOUTS = {
 def test_any_real_dtype_and_layout_is_read_as_it_stands(name):
     given = LAYOUTS[name]
     expected = np.asarray(given, dtype=float)
-    found = HeightMap(given, pixel_size=PIXEL)
-    assert found.heights.shape == expected.shape
-    np.testing.assert_array_equal(found.heights, expected)
-    assert found.rms_height == pytest.approx(expected.std(), rel=1e-13, abs=0)
-    assert found.detrend("plane").rms_height <= found.rms_height
+    result = HeightMap(given, pixel_size=PIXEL)
+    assert result.heights.shape == expected.shape
+    np.testing.assert_array_equal(result.heights, expected)
+    assert result.rms_height == pytest.approx(expected.std(), rel=1e-13, abs=0)
+    assert result.detrend("plane").rms_height <= result.rms_height
 
 
 @pytest.mark.parametrize("change", ["fill_dropouts", "detrend", "affine_shift"])
@@ -130,8 +130,8 @@ def test_rms_slope_is_that_of_central_differences():
 
 def test_rms_slope_of_a_plane_is_its_gradient_whatever_is_missing():
     heights = np.where(RNG.random((40, 50)) < 0.1, np.nan, plane((40, 50)))
-    found = HeightMap(heights, pixel_size=PIXEL).rms_slope
-    assert found == pytest.approx(np.hypot(0.2, 0.11), rel=1e-9)
+    result = HeightMap(heights, pixel_size=PIXEL).rms_slope
+    assert result == pytest.approx(np.hypot(0.2, 0.11), rel=1e-9)
 
 
 @pytest.mark.parametrize(("count", "accepted"), [(100, True), (101, False)])
@@ -172,8 +172,8 @@ def test_detrend_takes_out_exactly_its_own_shape(order, gaps):
     terms["quadratic"] = [*terms["plane"], u * u, u * v, v * v]
     matrix, known = np.stack(terms[order], axis=-1), ~np.isnan(rough)
     fit = np.linalg.lstsq(matrix[known], (shape + rough)[known], rcond=None)[0]
-    found = HeightMap(shape + rough, pixel_size=PIXEL).detrend(order).heights
-    np.testing.assert_allclose(found, shape + rough - matrix @ fit, atol=1e-12)
+    result = HeightMap(shape + rough, pixel_size=PIXEL).detrend(order).heights
+    np.testing.assert_allclose(result, shape + rough - matrix @ fit, atol=1e-12)
 
 
 def test_an_offset_of_a_million_rms_heights_costs_no_more_than_its_own_rounding():
@@ -210,10 +210,12 @@ def greedy(z, pixel, min_distance, periodic):
 @pytest.mark.parametrize("shape", [(40, 41), (12, 90), (3, 3)])
 def test_peaks_are_those_of_the_plain_greedy_search(shape, min_distance, periodic):
     z = RNG.normal(size=shape) + 0.5
-    found = HeightMap(z, pixel_size=PIXEL).local_peaks(min_distance=min_distance, periodic=periodic)
+    result = HeightMap(z, pixel_size=PIXEL).local_peaks(
+        min_distance=min_distance, periodic=periodic
+    )
     expected = greedy(z, PIXEL, min_distance, periodic)
-    assert len(found) == len(expected)
-    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-15)
+    assert len(result) == len(expected)
+    np.testing.assert_allclose(result, expected, rtol=1e-12, atol=1e-15)
 
 
 @pytest.mark.parametrize("apart", [3, 8])
@@ -233,8 +235,8 @@ def test_a_plateau_counts_once_and_not_beside_a_higher_point():
     z[2:4, 2:5] = 1.0  # a plateau
     z[6, 3:6], z[7, 6] = 2.0, 3.0  # a ledge below a summit
     z[1:3, 8] = z[3, 9] = 4.0  # a bent ridge, joined by a corner
-    found = HeightMap(z, pixel_size=1).local_peaks(min_distance=0.1)
-    np.testing.assert_allclose(found + z.mean(), [4.0, 3.0, 1.0])
+    result = HeightMap(z, pixel_size=1).local_peaks(min_distance=0.1)
+    np.testing.assert_allclose(result + z.mean(), [4.0, 3.0, 1.0])
     assert (
         HeightMap(np.ones((5, 5)), pixel_size=1).local_peaks(min_distance=1, periodic=True).size
         == 0

@@ -104,12 +104,12 @@ def test_a_last_line_that_was_not_ended_or_is_damaged_is_dropped():
     damaged = last.replace(b"start", b"stars")
     for rest in (content[:-20], content + b"\0" * 4096, content[: -len(last)] + damaged):
         journal.write_bytes(rest)
-        with sweep(resume=True) as found:
-            assert found.mu.values.tolist() == mu.tolist()
+        with sweep(resume=True) as result:
+            assert result.mu.values.tolist() == mu.tolist()
         assert journal.read_bytes().startswith(content)
     journal.write_bytes(content.splitlines(keepends=True)[0] + b"\0" * 4096)
-    with sweep(resume=True) as found:
-        assert found.mu.values.tolist() == mu.tolist()
+    with sweep(resume=True) as result:
+        assert result.mu.values.tolist() == mu.tolist()
     assert journal.read_bytes() == content  # nothing is left of a line that was longer
 
 
@@ -152,8 +152,8 @@ def test_force_leaves_a_store_that_another_sweep_writes(capsys):
         fcntl.flock(journal, fcntl.LOCK_EX)
         said = refused(capsys, "--output", "a.zarr", "--force")
     assert "a.zarr: another sweep is writing to it" in said
-    with xarray.open_dataset("a.zarr") as found:
-        assert found.attrs["complete"] == 1
+    with xarray.open_dataset("a.zarr") as result:
+        assert result.attrs["complete"] == 1
 
 
 def test_force_removes_nothing_before_the_new_sweep_is_known_to_work(folder, capsys):
@@ -166,13 +166,13 @@ def test_force_removes_nothing_before_the_new_sweep_is_known_to_work(folder, cap
     (folder / "sweep.toml").write_text(text)
     for name in ("a.zarr", "a.nc"):
         assert "q1" in refused(capsys, "--output", name, "--force")
-        with xarray.open_dataset(name) as found:
-            assert found.sizes["surface.hurst"] == 3
+        with xarray.open_dataset(name) as result:
+            assert result.sizes["surface.hurst"] == 3
     (folder / "sweep.toml").write_text(SWEEP)
     for name in ("a.zarr", "a.nc"):
         assert main(["sweep", "sweep.toml", "--output", name, "--force"]) == 0
-        with xarray.open_dataset(name) as found:
-            assert "hysteresis" not in found
+        with xarray.open_dataset(name) as result:
+            assert "hysteresis" not in result
     assert sorted(os.listdir()) == ["a.nc", "a.zarr", "scene.toml", "sweep.toml"]
 
 
@@ -201,5 +201,5 @@ def test_a_store_that_cannot_be_removed_is_told(monkeypatch, capsys):
     monkeypatch.setattr(existing.os, "rename", full)
     said = refused(capsys, "--output", "a.zarr", "--force", status=1)
     assert "a.zarr: cannot be removed: Permission denied" in said
-    with xarray.open_dataset("a.zarr") as found:
-        assert found.attrs["complete"] == 1
+    with xarray.open_dataset("a.zarr") as result:
+        assert result.attrs["complete"] == 1

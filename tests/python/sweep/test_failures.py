@@ -27,23 +27,23 @@ FAST, SLOW = (plan.Cost(point=one, scene=one, change={}) for one in (1e-9, 10.0)
 
 
 def test_heat_gives_the_same_bits_however_costs_cut_it(monkeypatch):
-    found = []
+    result = []
     for cost in (FAST, SLOW):
         monkeypatch.setattr(run, "timed", lambda *_, cost=cost: cost)
-        found.append(asperity.sweep(HOT, {"surface.hurst": [0.7, 0.8]}, variables=["mu"]).mu)
+        result.append(asperity.sweep(HOT, {"surface.hurst": [0.7, 0.8]}, variables=["mu"]).mu)
     velocities = {"conditions.velocity_m_s": np.geomspace(0.1, 10, 5)}
     turned = asperity.sweep(HOT, velocities | {"surface.hurst": [0.7, 0.8]}, variables=["mu"]).mu
-    assert np.isfinite(found[0]).all()
-    assert np.array_equal(found[0], found[1])
-    assert np.array_equal(turned.transpose(*found[0].dims), found[0])
+    assert np.isfinite(result[0]).all()
+    assert np.array_equal(result[0], result[1])
+    assert np.array_equal(turned.transpose(*result[0].dims), result[0])
 
 
 @pytest.mark.parametrize("wrong", [[], [1e3], [1e3, 1.1e3, 1.2e3]])
 def test_whether_a_sweep_runs_does_not_depend_on_the_order_of_values(wrong):
     for values in ([*wrong, 1e5], [1e5, *wrong]):  # below q0 there is no spectrum
-        found = asperity.sweep(SCENE, {"surface.q1_per_m": values}, variables=["mu"])
-        assert found.attrs["failed"] == 7 * len(wrong)
-        assert np.isfinite(found.mu.sel({"surface.q1_per_m": 1e5})).all()
+        result = asperity.sweep(SCENE, {"surface.q1_per_m": values}, variables=["mu"])
+        assert result.attrs["failed"] == 7 * len(wrong)
+        assert np.isfinite(result.mu.sel({"surface.q1_per_m": 1e5})).all()
     if wrong:
         with pytest.raises(asperity.InvalidInput, match="q1"):
             asperity.sweep(SCENE, {"surface.q1_per_m": wrong})
@@ -75,13 +75,13 @@ def test_every_code_has_a_text(tmp_path):
     scene = SCENE | {"rubber": {"master_curve": measured(tmp_path, np.geomspace(1e1, 1e7, 40))}}
     velocities = np.geomspace(2e2, 4e2, 1200)  # each fails with a text of its own
     over = {"conditions.velocity_m_s": velocities, "surface.q1_per_m": [1e3, 1e5]}
-    found = asperity.sweep(scene, over, variables=["mu"])
-    assert found.attrs["failed"] == 2 * velocities.size
+    result = asperity.sweep(scene, over, variables=["mu"])
+    assert result.attrs["failed"] == 2 * velocities.size
     texts = [
-        str(found.failure_message.sel(failure_code=code).values)
-        for code in np.unique(found.failure)
+        str(result.failure_message.sel(failure_code=code).values)
+        for code in np.unique(result.failure)
     ]
-    assert len(texts) == found.sizes["failure_code"] == 2
+    assert len(texts) == result.sizes["failure_code"] == 2
     assert sum("velocity_m_s" in text for text in texts) == 1
 
 
@@ -97,12 +97,12 @@ def test_a_point_without_a_band_takes_no_other_with_it(folder):
     names = ["conditions.pressure_pa", "conditions.velocity_m_s"]
     values = dict(zip(names, ([1e5, 2e5], [1e-2, 1e-1, 1e3]), strict=True))
     for order in (names, names[::-1]):
-        found = asperity.sweep(tables, {name: values[name] for name in order})
-        found = found.transpose(*names, ...)
-        assert found.attrs["failed"] == 2
-        code = int(found.failure[0, 2])
-        assert (found.failure == [[0, 0, code]] * 2).all()
-        assert "velocity_m_s" in str(found.failure_message.sel(failure_code=code).values)
+        result = asperity.sweep(tables, {name: values[name] for name in order})
+        result = result.transpose(*names, ...)
+        assert result.attrs["failed"] == 2
+        code = int(result.failure[0, 2])
+        assert (result.failure == [[0, 0, code]] * 2).all()
+        assert "velocity_m_s" in str(result.failure_message.sel(failure_code=code).values)
         for name in ("mu", "mu_low", "mu_high"):
-            assert np.array_equal(found[name][:, :2], whole[name]), name
-            assert np.isnan(found[name][:, 2]).all()
+            assert np.array_equal(result[name][:, :2], whole[name]), name
+            assert np.isnan(result[name][:, 2]).all()

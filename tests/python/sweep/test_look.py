@@ -44,8 +44,8 @@ def test_notes_are_those_of_what_was_chosen(swept):
 
 @pytest.fixture
 def swept(stored):
-    with xarray.open_dataset(stored, engine="zarr") as found:
-        yield found
+    with xarray.open_dataset(stored, engine="zarr") as result:
+        yield result
 
 
 def table(mu, error, band=None, numerical=0.0):
@@ -71,36 +71,36 @@ MU = [[[1.0, 0.5], [1.0, 0.6]], [[0.8, 0.9], [0.7, 0.59]], [[0.1, 0.1], [0.1, 0.
 
 
 def test_ranks_are_those_counted_by_hand():
-    found = ranks(table(MU, np.full((3, 2, 2), 0.1)), "rubber")
-    assert found["rubber"] == ["A", "B", "C"]
-    assert found["mean_mu"] == pytest.approx([3.1 / 4, 2.99 / 4, 0.1])
-    assert found["lead"][:2] == pytest.approx([0.11 / 4, 2.59 / 4])
-    assert found["best_share"] == [0.75, 0.25, 0]
+    result = ranks(table(MU, np.full((3, 2, 2), 0.1)), "rubber")
+    assert result["rubber"] == ["A", "B", "C"]
+    assert result["mean_mu"] == pytest.approx([3.1 / 4, 2.99 / 4, 0.1])
+    assert result["lead"][:2] == pytest.approx([0.11 / 4, 2.59 / 4])
+    assert result["best_share"] == [0.75, 0.25, 0]
     # leads 0.2 over 0.18, 0.4 over 0.14, 0.3 over 0.17 and 0.01 over 0.119
-    assert found["certain_share"] == [0.5, 0.25, 0]
-    assert found["best_at"] == ["road new; velocity_m_s 0.1", "", ""]
-    found = ranks(table(MU, np.full((3, 2, 2), 0.11)), "rubber")  # 0.198, 0.154, 0.187, 0.131
-    assert found["certain_share"] == [0.5, 0.25, 0]
-    found = ranks(table(MU, np.full((3, 2, 2), 0.12)), "rubber")  # 0.216, 0.168, 0.204, 0.143
-    assert found["certain_share"] == [0.25, 0.25, 0]  # 0.2 is more than 0.153, and no sum
+    assert result["certain_share"] == [0.5, 0.25, 0]
+    assert result["best_at"] == ["road new; velocity_m_s 0.1", "", ""]
+    result = ranks(table(MU, np.full((3, 2, 2), 0.11)), "rubber")  # 0.198, 0.154, 0.187, 0.131
+    assert result["certain_share"] == [0.5, 0.25, 0]
+    result = ranks(table(MU, np.full((3, 2, 2), 0.12)), "rubber")  # 0.216, 0.168, 0.204, 0.143
+    assert result["certain_share"] == [0.25, 0.25, 0]  # 0.2 is more than 0.153, and no sum
     none = np.zeros((3, 2, 2))
-    found = ranks(table(MU, none, band=0.14), "rubber")  # 0.28 for two
-    assert found["certain_share"] == [0.25, 0.25, 0]
-    found = ranks(table(MU, none, band=0.14, numerical=0.02), "rubber")  # 0.32
-    assert found["certain_share"] == [0, 0.25, 0]
-    found = ranks(table(MU, np.full((3, 2, 2), 0.1), band=0.14), "rubber")  # 0.42 with 0.14 of it
-    assert found["certain_share"] == [0, 0, 0]
-    found = ranks(table(MU, np.full((3, 2, 2), np.nan)), "rubber")
-    assert np.isnan(found["certain_share"]).all()
+    result = ranks(table(MU, none, band=0.14), "rubber")  # 0.28 for two
+    assert result["certain_share"] == [0.25, 0.25, 0]
+    result = ranks(table(MU, none, band=0.14, numerical=0.02), "rubber")  # 0.32
+    assert result["certain_share"] == [0, 0.25, 0]
+    result = ranks(table(MU, np.full((3, 2, 2), 0.1), band=0.14), "rubber")  # 0.42 with 0.14 of it
+    assert result["certain_share"] == [0, 0, 0]
+    result = ranks(table(MU, np.full((3, 2, 2), np.nan)), "rubber")
+    assert np.isnan(result["certain_share"]).all()
 
 
 def test_points_without_a_result_are_not_compared():
     mu = np.array(MU)
     mu[2, 0, 0] = np.nan
-    found = ranks(table(mu, np.full((3, 2, 2), 0.1)), "rubber")
-    assert found["best_share"] == pytest.approx([1 / 3, 2 / 3, 0])
-    assert found["rubber"] == ["B", "A", "C"]  # without a place at which A leads by far
-    assert found["mean_mu"][:2] == pytest.approx([2.19 / 3, 2.1 / 3])
+    result = ranks(table(mu, np.full((3, 2, 2), 0.1)), "rubber")
+    assert result["best_share"] == pytest.approx([1 / 3, 2 / 3, 0])
+    assert result["rubber"] == ["B", "A", "C"]  # without a place at which A leads by far
+    assert result["mean_mu"][:2] == pytest.approx([2.19 / 3, 2.1 / 3])
     with pytest.raises(asperity.InvalidInput, match="no point at which every value"):
         ranks(table(np.full((3, 2, 2), np.nan), mu), "rubber")
 

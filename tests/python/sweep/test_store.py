@@ -51,18 +51,18 @@ def expected():
     return sweep(SCENE, OVER)
 
 
-def same(found, expected):
-    assert set(found.data_vars) == set(expected.data_vars)
-    assert set(found.coords) == set(expected.coords)
+def same(result, expected):
+    assert set(result.data_vars) == set(expected.data_vars)
+    assert set(result.coords) == set(expected.coords)
     for name, one in expected.variables.items():
-        assert found[name].dims == one.dims
+        assert result[name].dims == one.dims
         if one.dtype.kind in "UT":
-            assert found[name].values.tolist() == one.values.tolist()
+            assert result[name].values.tolist() == one.values.tolist()
         else:
-            assert np.array_equal(found[name], one, equal_nan=one.dtype.kind == "f"), name
-            assert found[name].dtype == one.dtype
+            assert np.array_equal(result[name], one, equal_nan=one.dtype.kind == "f"), name
+            assert result[name].dtype == one.dtype
     for name in ("notes", "failed", "sweep", "title"):
-        assert found.attrs[name] == expected.attrs[name], name
+        assert result.attrs[name] == expected.attrs[name], name
 
 
 @pytest.mark.parametrize("name", ["a.zarr", "a.nc"])
@@ -119,13 +119,13 @@ def test_resume_computes_what_is_missing(name, expected, monkeypatch):
         sweep(SCENE, OVER, store=name)
     part = name if name == "a.zarr" else "a.nc.part"
     assert os.listdir() == [part]
-    with xarray.open_dataset(part, engine="zarr") as found:
-        assert found.attrs["complete"] == 0
+    with xarray.open_dataset(part, engine="zarr") as result:
+        assert result.attrs["complete"] == 0
     monkeypatch.setattr(store.ZarrStore, "write", plain)
     computed = []
     counting(monkeypatch, computed)
-    with sweep(SCENE, OVER, store=name, resume=True) as found:
-        same(found, expected)
+    with sweep(SCENE, OVER, store=name, resume=True) as result:
+        same(result, expected)
     assert len(written) == ENDED
     assert not set(computed) & set(written)
     assert len(computed) == 3 * 2 * 2 - ENDED
@@ -149,8 +149,8 @@ def test_a_box_whose_numbers_are_not_those_of_its_line_is_computed_again(expecte
     os.remove(f"a.zarr/mu/c/0/0/0/{chunks[0]}")
     computed = []
     counting(monkeypatch, computed)
-    with sweep(SCENE, OVER, store="a.zarr", resume=True) as found:
-        same(found, expected)
+    with sweep(SCENE, OVER, store="a.zarr", resume=True) as result:
+        same(result, expected)
     assert sorted(computed) == [(0, 0, 0, 0), (0, 1, 0, 0), (1, 0, 0, 0), (2, 1, 0, 0)]
 
 
@@ -212,12 +212,12 @@ def test_a_worker_that_does_not_see_the_store_sends_its_numbers(expected, monkey
     monkeypatch.setattr(
         store.ZarrStore, "write", lambda self, one: (sent.append(one.contents), plain(self, one))
     )
-    with sweep(SCENE, OVER, store="a.zarr") as found:
-        same(found, expected)
+    with sweep(SCENE, OVER, store="a.zarr") as result:
+        same(result, expected)
     assert sent == [None] * 12
     monkeypatch.setattr(work, "_sees", lambda *_: False)
-    with sweep(SCENE, OVER, store="b.zarr") as found:
-        same(found, expected)
+    with sweep(SCENE, OVER, store="b.zarr") as result:
+        same(result, expected)
     assert all(sent[12:])
     assert [*map(bool, sent[12])] == [True, True, False]  # no file where nothing fails
     lines = [Path(name, "_sweep/journal").read_text() for name in ("a.zarr", "b.zarr")]
@@ -234,8 +234,8 @@ def test_two_drivers_do_not_write_to_one_store(monkeypatch):
         fcntl.flock(journal, fcntl.LOCK_EX)
         with pytest.raises(asperity.InvalidInput, match="another sweep is writing"):
             sweep(SCENE, OVER, store="a.zarr", resume=True)
-    with sweep(SCENE, OVER, store="a.zarr", resume=True) as found:
-        assert found.attrs["complete"] == 1
+    with sweep(SCENE, OVER, store="a.zarr", resume=True) as result:
+        assert result.attrs["complete"] == 1
 
 
 @pytest.mark.parametrize("full", ["hysteresis", "journal"])
@@ -269,8 +269,8 @@ def test_a_full_disk_ends_in_a_line_and_can_be_resumed(full, expected, monkeypat
     assert not list(Path("a.zarr").rglob("*.partial"))
     computed = []
     counting(monkeypatch, computed)
-    with sweep(SCENE, OVER, store="a.zarr", resume=True) as found:
-        same(found, expected)
+    with sweep(SCENE, OVER, store="a.zarr", resume=True) as result:
+        same(result, expected)
     assert len(computed) == 12 - 3
 
 
@@ -283,8 +283,8 @@ def test_netcdf_that_cannot_be_written_leaves_what_can_be_resumed(expected, monk
         with pytest.raises(asperity.Error, match=r"a\.nc: cannot be written: NetCDF"):
             sweep(SCENE, OVER, store="a.nc")
     assert os.listdir() == ["a.nc.part"]
-    with sweep(SCENE, OVER, store="a.nc", resume=True) as found:
-        same(found, expected)
+    with sweep(SCENE, OVER, store="a.nc", resume=True) as result:
+        same(result, expected)
 
 
 def test_a_file_that_changes_ends_the_sweep(tmp_path, monkeypatch):

@@ -28,10 +28,10 @@ def swept():
     return asperity.sweep(SCENE, OVER)
 
 
-def same(found, expected, names=None):
+def same(result, expected, names=None):
     for name in names or expected.data_vars:
         kind = expected[name].dtype.kind
-        assert np.array_equal(found[name], expected[name], equal_nan=kind == "f"), name
+        assert np.array_equal(result[name], expected[name], equal_nan=kind == "f"), name
 
 
 def test_it_is_the_plain_loop(swept):
@@ -54,9 +54,9 @@ CUTS = [(1, 1, 1, 1), (3, 4, 3, 7), (2, 3, 2, 4), (1, 4, 1, 7), (3, 1, 3, 2)]
 @pytest.mark.parametrize("cut", CUTS)
 def test_numbers_and_notes_do_not_depend_on_the_cut(swept, cut, monkeypatch):
     monkeypatch.setattr(run, "cut_of", lambda *_: cut)
-    found = asperity.sweep(SCENE, OVER)
-    same(found, swept)
-    assert found.attrs == swept.attrs
+    result = asperity.sweep(SCENE, OVER)
+    same(result, swept)
+    assert result.attrs == swept.attrs
 
 
 class LastFirst:
@@ -87,32 +87,32 @@ def test_numbers_do_not_depend_on_the_executor(swept, kind, monkeypatch):
     monkeypatch.setattr(run, "cut_of", lambda *_: (2, 2, 2, 4))
     if kind == "threads":
         with ThreadPoolExecutor(4) as pool:
-            found = asperity.sweep(SCENE, OVER, executor=pool)
+            result = asperity.sweep(SCENE, OVER, executor=pool)
     elif kind == "processes":
         with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
-            found = asperity.sweep(SCENE, OVER, executor=pool)
+            result = asperity.sweep(SCENE, OVER, executor=pool)
     else:
         pool = LastFirst()
-        found = asperity.sweep(SCENE, OVER, executor=pool)
+        result = asperity.sweep(SCENE, OVER, executor=pool)
         tasks = pool.order[-16:]
         assert tasks != sorted(tasks)
-    same(found, swept)
+    same(result, swept)
 
 
 def test_axes_are_zipped_under_a_name(swept):
     together = {"road": {"surface.hurst": [0.7, 0.9], "surface.rms_height_m": [2e-4, 1e-4]}}
-    found = asperity.sweep(SCENE, {**together, "conditions.pressure_pa": [1e5, 3e5]})
-    assert found.mu.dims == ("road", "conditions.pressure_pa", "conditions.velocity_m_s")
-    assert found["surface.rms_height_m"].dims == ("road",)
+    result = asperity.sweep(SCENE, {**together, "conditions.pressure_pa": [1e5, 3e5]})
+    assert result.mu.dims == ("road", "conditions.pressure_pa", "conditions.velocity_m_s")
+    assert result["surface.rms_height_m"].dims == ("road",)
     loop = plain_loop(
         SCENE, {**together, "p": {"conditions.pressure_pa": [1e5, 3e5]}}, columns=("mu",)
     )
-    assert np.array_equal(found.mu, loop["mu"])
+    assert np.array_equal(result.mu, loop["mu"])
     pairs = {"at": {"conditions.pressure_pa": [1e5, 4e5], "conditions.velocity_m_s": [1e-6, 1e-6]}}
-    found = asperity.sweep(SCENE, pairs)
-    assert found.mu.dims == ("at",)
+    result = asperity.sweep(SCENE, pairs)
+    assert result.mu.dims == ("at",)
     where = {"correction.kind": 0, "surface.hurst": 1, "conditions.velocity_m_s": 0}
-    assert np.array_equal(found.mu, swept.mu.isel(where)[[0, 2]])
+    assert np.array_equal(result.mu, swept.mu.isel(where)[[0, 2]])
 
 
 def test_lists_of_the_scene_are_dimensions_and_axes_take_their_place():
@@ -121,11 +121,11 @@ def test_lists_of_the_scene_are_dimensions_and_axes_take_their_place():
         "conditions.pressure_pa",
         "conditions.velocity_m_s",
     )
-    found = asperity.sweep(scene, {"conditions.velocity_m_s": [1e-2, 1e-1, 1.0]})
-    assert found.mu.shape == (3, 2)
+    result = asperity.sweep(scene, {"conditions.velocity_m_s": [1e-2, 1e-1, 1.0]})
+    assert result.mu.shape == (3, 2)
     alone = SCENE | {"conditions": {"pressure_pa": 1e5, "velocity_m_s": 1e-2}}
     assert asperity.sweep(alone, {}).mu.shape == ()
-    assert float(asperity.sweep(alone, {}).mu) == found.mu.values[0, 0]
+    assert float(asperity.sweep(alone, {}).mu) == result.mu.values[0, 0]
 
 
 def test_files_are_an_axis_and_each_is_read_once(tmp_path, monkeypatch):
@@ -164,13 +164,13 @@ def test_files_are_an_axis_and_each_is_read_once(tmp_path, monkeypatch):
 
         monkeypatch.setattr(parts, name, counted)
     monkeypatch.setattr(run, "cut_of", lambda *_: (1, 1, 1, 3))
-    found = asperity.sweep(scene, over)
+    result = asperity.sweep(scene, over)
     loop = plain_loop(scene, {key: {key: one} for key, one in over.items()}, tmp_path)
     for name in COLUMNS:
-        assert np.array_equal(found[name], loop[name]), name
+        assert np.array_equal(result[name], loop[name]), name
     assert sorted(built) == ["build_correction"] * 2 + ["build_rubber"] * 2 + ["build_surface"] * 2
-    assert len(json.loads(found.attrs["sweep"])) > 10
-    assert sum("sha" in key or "content" in key for key in json.loads(found.attrs["sweep"])) == 4
+    assert len(json.loads(result.attrs["sweep"])) > 10
+    assert sum("sha" in key or "content" in key for key in json.loads(result.attrs["sweep"])) == 4
 
 
 def test_heat_and_temperatures_are_in_it():
@@ -184,17 +184,17 @@ def test_heat_and_temperatures_are_in_it():
     conditions = {"pressure_pa": 1e5, "velocity_m_s": [1e-3, 1.0], "temperature_c": 20}
     scene = SCENE | {"rubber": rubber, "heating": heating, "conditions": conditions}
     over = {"conditions.temperature_c": [10.0, 40.0], "heating.contact_diameter_m": [1e-3, 2e-3]}
-    found = asperity.sweep(scene, over)
+    result = asperity.sweep(scene, over)
     loop = plain_loop(
         scene,
         {key: {key: one} for key, one in over.items()},
         columns=("mu", "mu_cold", "hot_temperature"),
     )
-    assert np.array_equal(found.mu, loop["mu"])
-    assert np.array_equal(found.mu_cold, loop["mu_cold"])
-    assert np.array_equal(found.temperature, loop["hot_temperature"])
+    assert np.array_equal(result.mu, loop["mu"])
+    assert np.array_equal(result.mu_cold, loop["mu_cold"])
+    assert np.array_equal(result.temperature, loop["hot_temperature"])
     kelvin = asperity.sweep(scene, {"conditions.temperature_k": [283.15, 313.15]})
-    assert np.array_equal(kelvin.mu, found.mu[:, 0])
+    assert np.array_equal(kelvin.mu, result.mu[:, 0])
 
 
 def test_a_band_has_two_variables(folder):
@@ -204,20 +204,20 @@ def test_a_band_has_two_variables(folder):
         "conditions": {"velocity_m_s": [1e-3, 1e-2, 1e-1], "pressure_pa": [1e5, 2e5]},
         "uncertainty": {"samples": 20},
     }
-    found = asperity.sweep(tables, {"correction.kind": ["none", "partial-contact"]})
+    result = asperity.sweep(tables, {"correction.kind": ["none", "partial-contact"]})
     for k, kind in enumerate([None, {"kind": "partial-contact"}]):
         one = tables if kind is None else tables | {"correction": kind}
         made = asperity.scene.scene.build_scene(folder / "x", one, for_friction=True)
         curves = made.friction()
         band = made.band(curves.mu)
-        assert np.array_equal(found.mu_low[k], band.lower)
-        assert np.array_equal(found.mu_high[k], band.upper)
+        assert np.array_equal(result.mu_low[k], band.lower)
+        assert np.array_equal(result.mu_high[k], band.upper)
     turned = asperity.sweep(
         tables,
         {"conditions.velocity_m_s": [1e-3, 1e-2, 1e-1], "conditions.pressure_pa": [1e5, 2e5]},
         variables=["mu_low"],
     )
-    assert np.array_equal(turned.mu_low, found.mu_low[0].T)
+    assert np.array_equal(turned.mu_low, result.mu_low[0].T)
 
 
 @pytest.mark.parametrize("cut", [(1, 1, 1), (2, 3, 9), (2, 2, 4), (1, 3, 5)])
@@ -237,30 +237,30 @@ def test_what_fails_leaves_nan_and_its_message(cut, monkeypatch, tmp_path):
         "conditions.velocity_m_s": np.geomspace(1e-5, 1e3, 9),
     }
     monkeypatch.setattr(run, "cut_of", lambda *_: cut)
-    found = asperity.sweep(scene, over)
+    result = asperity.sweep(scene, over)
     v, q1, q0 = (
-        found["conditions.velocity_m_s"],
-        found["surface.q1_per_m"],
-        found["surface.q0_per_m"],
+        result["conditions.velocity_m_s"],
+        result["surface.q1_per_m"],
+        result["surface.q0_per_m"],
     )
     whole = (v * q0 >= 1e1) & (v * q1 <= 1e7) & (q0 < q1)
-    whole = whole.transpose(*found.mu.dims)
+    whole = whole.transpose(*result.mu.dims)
     assert 5 < int(whole.sum()) < whole.size - 9
     for name in COLUMNS:
-        assert np.array_equal(np.isfinite(found[name]), whole), name
-    assert np.array_equal(found.failure == 0, whole)
-    assert found.attrs["failed"] == int((~whole).sum())
-    messages = dict(zip(found.failure_code.values, found.failure_message.values, strict=True))
-    lost = messages[int(found.failure.sel({"surface.q1_per_m": 1e4, "surface.q0_per_m": 2e4})[0])]
+        assert np.array_equal(np.isfinite(result[name]), whole), name
+    assert np.array_equal(result.failure == 0, whole)
+    assert result.attrs["failed"] == int((~whole).sum())
+    messages = dict(zip(result.failure_code.values, result.failure_message.values, strict=True))
+    lost = messages[int(result.failure.sel({"surface.q1_per_m": 1e4, "surface.q0_per_m": 2e4})[0])]
     assert "q1" in lost
-    fast = messages[int(found.failure[0, 0, -1])]
+    fast = messages[int(result.failure[0, 0, -1])]
     assert "velocity_m_s" in fast
     assert "1000" in fast
     if cut == (2, 3, 9):
         monkeypatch.setattr(run, "cut_of", lambda *_: (1, 1, 2))
         other = asperity.sweep(scene, over)
-        same(other, found, ["failure", "mu", "failure_code"])
-        assert other.failure_message.values.tolist() == found.failure_message.values.tolist()
+        same(other, result, ["failure", "mu", "failure_code"])
+        assert other.failure_message.values.tolist() == result.failure_message.values.tolist()
 
 
 def test_tasks_take_about_a_second():
@@ -290,8 +290,8 @@ def test_a_worker_keeps_what_it_built():
 
 
 def test_variables_that_are_wanted_are_all_that_is_kept():
-    found = asperity.sweep(SCENE, {}, variables=["contact_area", "mu"])
-    assert [*found.data_vars] == ["mu", "contact_area", "failure", "failure_message"]
+    result = asperity.sweep(SCENE, {}, variables=["contact_area", "mu"])
+    assert [*result.data_vars] == ["mu", "contact_area", "failure", "failure_message"]
 
 
 def test_progress_is_told():

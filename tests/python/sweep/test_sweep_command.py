@@ -57,16 +57,16 @@ def test_it_writes_what_python_computes(capsys):
         "road": {"surface.rms_height_m": [1e-4, 2e-4], "surface.q0_per_m": [1e3, 2e3]},
     }
     expected = asperity.sweep("scene.toml", over)
-    with xarray.open_dataset("r.zarr") as found:
-        assert [*found.data_vars] == ["contact_area", "failure", "failure_message", "mu"]
-        assert found.mu.dims == expected.mu.dims
-        assert np.array_equal(found.mu, expected.mu)
+    with xarray.open_dataset("r.zarr") as result:
+        assert [*result.data_vars] == ["contact_area", "failure", "failure_message", "mu"]
+        assert result.mu.dims == expected.mu.dims
+        assert np.array_equal(result.mu, expected.mu)
     assert main(["sweep", "sweep.toml", "--output", "r.zarr", "--resume"]) == 0
     capsys.readouterr()
     assert "exists already" in refused(capsys, "sweep.toml", "--output", "r.zarr")
     assert main(["sweep", "sweep.toml", "--output", "r.zarr", "--force", "--variables", "mu"]) == 0
-    with xarray.open_dataset("r.zarr") as found:
-        assert "contact_area" not in found
+    with xarray.open_dataset("r.zarr") as result:
+        assert "contact_area" not in result
 
 
 def test_numbers_of_a_file_are_numbers_of_any_key(folder):
@@ -96,9 +96,9 @@ def test_failures_are_counted_in_the_last_line_and_the_status(folder, capsys):
     assert main(["sweep", "sweep.toml", "--output", "r.zarr"]) == 1
     last = capsys.readouterr().err.splitlines()[-1]
     assert last.startswith("asperity: r.zarr: 42 of 168 points failed: scene.toml: [surface]")
-    with xarray.open_dataset("r.zarr") as found:
-        assert int((found.failure != 0).sum()) == 42
-        assert int(np.isnan(found.mu).sum()) == 42
+    with xarray.open_dataset("r.zarr") as result:
+        assert int((result.failure != 0).sum()) == 42
+        assert int(np.isnan(result.mu).sum()) == 42
 
 
 BAD = {

@@ -80,10 +80,10 @@ def test_a_killed_worker_costs_its_task(expected, monkeypatch):
                 killed.append(next(iter(first.values())))
                 os.kill(killed[0], signal.SIGKILL)
 
-        found = asperity.sweep(SCENE, OVER, executor=client, progress=progress, variables=["mu"])
+        result = asperity.sweep(SCENE, OVER, executor=client, progress=progress, variables=["mu"])
         assert killed
-        assert np.array_equal(found.mu, expected.mu)
-        assert found.attrs["failed"] == 0
+        assert np.array_equal(result.mu, expected.mu)
+        assert result.attrs["failed"] == 0
         client.wait_for_workers(2, timeout=120)
         assert killed[0] not in client.run(os.getpid).values()
 
@@ -187,9 +187,9 @@ def test_what_a_killed_driver_wrote_is_resumed(ending, expected, tmp_path, monke
         assert process.wait() == -signal.SIGKILL
     assert 10 <= counts[0] < counts[1] < 64
     subprocess.run(driver, env={**os.environ, "PYTHONPATH": paths}, check=True)
-    with xarray.open_dataset(f"killed{ending}") as found:
-        assert np.array_equal(found.mu, expected.mu)
-        assert found.attrs["complete"] == 1
+    with xarray.open_dataset(f"killed{ending}") as result:
+        assert np.array_equal(result.mu, expected.mu)
+        assert result.attrs["complete"] == 1
     if ending == ".zarr":
         assert journal.read_text().count("\n") == 64
     assert os.listdir() == [f"killed{ending}"]

@@ -30,25 +30,27 @@ def scan(dtype=np.float64, *, holes=0.05):
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_they_are_those_of_the_map_in_memory(small_pieces, detrend, dtype, holes):
     z = scan(dtype, holes=holes)
-    found = height_statistics(z, pixel_size=PIXEL, detrend=detrend)
+    result = height_statistics(z, pixel_size=PIXEL, detrend=detrend)
     kept = HeightMap(z.astype(float), pixel_size=PIXEL).detrend(detrend)
     for name in SHARED:
-        assert getattr(found, name) == pytest.approx(getattr(kept, name), rel=1e-9, abs=1e-12), name
-    assert found.mean == pytest.approx(np.nanmean(z.astype(float)), rel=1e-12)
+        assert getattr(result, name) == pytest.approx(getattr(kept, name), rel=1e-9, abs=1e-12), (
+            name
+        )
+    assert result.mean == pytest.approx(np.nanmean(z.astype(float)), rel=1e-12)
 
 
 def test_they_are_those_of_the_definition(small_pieces):
     z = scan(holes=0)
-    found = height_statistics(z, pixel_size=PIXEL)
+    result = height_statistics(z, pixel_size=PIXEL)
     h = z - z.mean()
     rms = np.sqrt(np.mean(h**2))
     slope_y, slope_x = (z[2:] - z[:-2]) / (2 * PIXEL[0]), (z[:, 2:] - z[:, :-2]) / (2 * PIXEL[1])
-    assert found.rms_height == pytest.approx(rms, rel=1e-12)
-    assert found.skewness == pytest.approx(np.mean(h**3) / rms**3, rel=1e-9)
-    assert found.kurtosis == pytest.approx(np.mean(h**4) / rms**4, rel=1e-11)
+    assert result.rms_height == pytest.approx(rms, rel=1e-12)
+    assert result.skewness == pytest.approx(np.mean(h**3) / rms**3, rel=1e-9)
+    assert result.kurtosis == pytest.approx(np.mean(h**4) / rms**4, rel=1e-11)
     slope = np.sqrt(np.mean(slope_y**2) + np.mean(slope_x**2))
-    assert found.rms_slope == pytest.approx(slope, rel=1e-12)
-    assert (found.z_max, found.z_min) == pytest.approx((h.max(), h.min()), rel=1e-10)
+    assert result.rms_slope == pytest.approx(slope, rel=1e-12)
+    assert (result.z_max, result.z_min) == pytest.approx((h.max(), h.min()), rel=1e-10)
 
 
 def test_they_do_not_depend_on_who_computes(small_pieces):

@@ -25,9 +25,9 @@ VIEWS = {
 
 def mapped(path: Path, heights: np.ndarray, **options: object) -> np.memmap:
     np.save(path, heights)
-    found = np.load(path, mmap_mode="r", **options)
-    assert isinstance(found, np.memmap)
-    return found
+    result = np.load(path, mmap_mode="r", **options)
+    assert isinstance(result, np.memmap)
+    return result
 
 
 @pytest.mark.parametrize("dtype", ["<f8", ">f8", "<f4", ">f4", "f2", "i4", "u1"])
@@ -44,9 +44,9 @@ def test_a_memory_map_is_read_by_file_reads(tmp_path, dtype, order, view):
         box = tuple(
             slice(part.start, min(part.stop, n)) for part, n in zip(BOX, array.shape, strict=True)
         )
-        found = source.piece(box).read()
-        assert found.dtype == (np.float32 if dtype[-2:] == "f4" else np.float64)
-        np.testing.assert_array_equal(found, array[box])
+        result = source.piece(box).read()
+        assert result.dtype == (np.float32 if dtype[-2:] == "f4" else np.float64)
+        np.testing.assert_array_equal(result, array[box])
 
 
 def test_a_raw_memory_map_with_an_offset_is_read_from_there(tmp_path):
@@ -184,10 +184,10 @@ def test_fill_values_are_drop_outs(tmp_path, version, dtype):
     expected = height_statistics(heights.astype(decoded.dtype), pixel_size=1)
     assert expected.dropout_fraction == 95 / 2400
     for array in (stored, raw, decoded):
-        found = height_statistics(array, pixel_size=1)
-        assert found.dropout_fraction == expected.dropout_fraction
-        assert found.rms_height == pytest.approx(expected.rms_height, rel=1e-6)
-        assert found.skewness == pytest.approx(expected.skewness, rel=1e-5)
+        result = height_statistics(array, pixel_size=1)
+        assert result.dropout_fraction == expected.dropout_fraction
+        assert result.rms_height == pytest.approx(expected.rms_height, rel=1e-6)
+        assert result.skewness == pytest.approx(expected.skewness, rel=1e-5)
 
 
 def test_missing_values_may_be_several_and_go_before_the_unit(tmp_path):
@@ -196,8 +196,8 @@ def test_missing_values_may_be_several_and_go_before_the_unit(tmp_path):
     stored = zarr.create_array(tmp_path / "map.zarr", data=heights)
     stored.attrs["missing_value"] = [7, 9]
     box = slice(0, 1), slice(5, 11)
-    found = source_of(stored, 1, 1e-9).piece(box).read()
-    np.testing.assert_array_equal(found, np.array([[5, 6, np.nan, 8, np.nan, 10]]) * 1e-9)
+    result = source_of(stored, 1, 1e-9).piece(box).read()
+    np.testing.assert_array_equal(result, np.array([[5, 6, np.nan, 8, np.nan, 10]]) * 1e-9)
 
 
 def test_a_zarr_array_without_attributes_has_heights_that_are_0(tmp_path):

@@ -58,15 +58,15 @@ def pairs_of_modes(window, shape, shift, rings):
     ky, kx = np.fft.fftfreq(ny) * longest, np.fft.fftfreq(nx) * longest
     radius = np.round(np.hypot(*np.meshgrid(ky, kx, indexing="ij")))
     masks = {r: radius == r for r in range(rings[0], rings[-1] + 4)}
-    found = np.zeros(4)
+    result = np.zeros(4)
     for r in rings:
         spread = np.fft.ifft2(np.fft.fft2(tie) * np.fft.fft2(masks[r])).real
         for m in range(4):
             number, other = masks[r].sum(), masks[r + m].sum()
             # a ring has a mode and its mirror image: the covariance of the mean times n / 2
             both_ways = (masks[r + m] * spread).sum() / number / other
-            found[m] += both_ways * np.sqrt(number * other) / len(rings)
-    return found
+            result[m] += both_ways * np.sqrt(number * other) / len(rings)
+    return result
 
 
 @pytest.mark.parametrize("shape", [(96, 96), (64, 128)])
@@ -75,11 +75,11 @@ def test_overlapping_tiles_are_as_alike_as_every_pair_of_modes_says(window, shap
     for part in ((0, 0), (0.5, 0), (0, 0.5), (0.5, 0.5), (0.25, 0.75)):
         shift = tuple(int(share * n) for share, n in zip(part, shape, strict=True))
         true = pairs_of_modes(window, shape, shift, range(20, 30))
-        found = np.zeros(4)
+        result = np.zeros(4)
         stated = _core.tile_covariances(WINDOWS.index(window), shape, (PIXEL, PIXEL), shift)
-        found[: min(4, stated.size)] = stated[:4]
+        result[: min(4, stated.size)] = stated[:4]
         alone = pairs_of_modes(window, shape, (0, 0), range(20, 30))[0]
-        assert found == pytest.approx(true, abs=0.03 * alone), part
+        assert result == pytest.approx(true, abs=0.03 * alone), part
 
 
 def test_one_tile_is_the_whole_map():
@@ -132,15 +132,15 @@ def test_rows_of_which_the_folded_roughness_leaves_little_are_flagged():
     # heights of a filter that takes long waves off: short ones, folded back, drown what is left
     edge = 40 * 2 * np.pi / (512 * PIXEL)
     z = surface(lambda q: np.where(q < edge, 1e-36, 1e-30), (1024, 1024), PIXEL, 3)
-    found = power_spectrum(z, pixel_size=PIXEL, tiles=512)
-    low = found.wavenumber < 31.5 * 2 * np.pi / (512 * PIXEL)
-    nothing = found.density == 0
+    result = power_spectrum(z, pixel_size=PIXEL, tiles=512)
+    low = result.wavenumber < 31.5 * 2 * np.pi / (512 * PIXEL)
+    nothing = result.density == 0
     assert nothing.any()
     assert low[nothing].all()
-    assert not found.reliable[low].any()
-    assert (np.asarray(found.flag)[low] & 4).all()
-    assert (found.standard_error[nothing] > 0).all()
-    assert found.reliable[~low].any()
+    assert not result.reliable[low].any()
+    assert (np.asarray(result.flag)[low] & 4).all()
+    assert (result.standard_error[nothing] > 0).all()
+    assert result.reliable[~low].any()
 
 
 def test_the_error_of_what_is_taken_off_is_in_that_of_the_row():
@@ -177,8 +177,8 @@ def test_the_error_of_what_is_taken_off_is_in_that_of_the_row():
 @pytest.mark.parametrize("name", list(LAWS))
 def test_the_truth_is_within_the_errors(name, window):
     z = surface(LAWS[name], (1400, 1150), PIXEL, 3, dtype=np.float32)
-    found = power_spectrum(z, pixel_size=PIXEL, tiles=(512, 640), window=window)
-    pulls = pull_of(found, LAWS[name])
+    result = power_spectrum(z, pixel_size=PIXEL, tiles=(512, 640), window=window)
+    pulls = pull_of(result, LAWS[name])
     assert np.abs(pulls).max() < 4
     assert np.sqrt(np.mean(pulls**2)) < 1.7
 
@@ -188,8 +188,8 @@ def test_tilt_lay_holes_and_pixels_that_are_not_square():
     z = surface(truth, (1100, 2048), pixel, 4, stretch=1.5)
     rms = np.std(z)
     z = with_holes(tilted(z, tilt=30 * rms, bow=rms), 0.03, 5, blob=3)
-    found = power_spectrum(z, pixel_size=pixel, tiles=(512, 1024), detrend="quadratic")
-    pulls = pull_of(found, ring_mean(truth, 1.5))
+    result = power_spectrum(z, pixel_size=pixel, tiles=(512, 1024), detrend="quadratic")
+    pulls = pull_of(result, ring_mean(truth, 1.5))
     low = pulls[:9]  # holes that are filled take from the shortest waves
     assert np.abs(low).max() < 4
     assert np.sqrt(np.mean(low**2)) < 1.7
@@ -251,7 +251,7 @@ def test_tiles_go_to_a_dask_cluster(tmp_path):
 def test_a_tile_with_too_many_holes_is_left_out():
     z = surface(LAWS["road"], (1024, 1536), PIXEL, 7)
     z[:200, :200] = np.nan  # 15 % of a tile, 2.5 % of the map
-    found = power_spectrum(z, pixel_size=PIXEL, tiles=512, overlap=0)
+    result = power_spectrum(z, pixel_size=PIXEL, tiles=512, overlap=0)
     lonely = [
         power_spectrum(HeightMap(part.copy(), pixel_size=PIXEL))
         for y in (0, 512)
@@ -260,20 +260,20 @@ def test_a_tile_with_too_many_holes_is_left_out():
     ]
     assert len(lonely) == 5
     mean = np.mean([s.density for s in lonely], axis=0)
-    assert found.density[-300:] == pytest.approx(mean[-300:], rel=1e-12)
+    assert result.density[-300:] == pytest.approx(mean[-300:], rel=1e-12)
     error = np.sqrt(np.sum([s.standard_error**2 for s in lonely], axis=0)) / 5
-    assert found.standard_error[-300:] == pytest.approx(error[-300:], rel=1e-12)
+    assert result.standard_error[-300:] == pytest.approx(error[-300:], rel=1e-12)
     # the rows of all tiles stand for the modes of the whole map
-    assert found.count[-300:] == pytest.approx(lonely[0].count[-300:] * 6, rel=1e-12)
+    assert result.count[-300:] == pytest.approx(lonely[0].count[-300:] * 6, rel=1e-12)
     everyone = power_spectrum(z, pixel_size=PIXEL, tiles=512, overlap=0, max_dropouts=0.2)
-    ratio = everyone.standard_error[-300:-100] / found.standard_error[-300:-100]
+    ratio = everyone.standard_error[-300:-100] / result.standard_error[-300:-100]
     assert np.median(ratio) == pytest.approx(np.sqrt(5 / 6), abs=0.02)
 
 
 def test_the_mean_square_height_is_that_of_the_map():
     z = surface(law(0.8, rolloff=3e5), (1024, 1024), PIXEL, 8)
-    found = power_spectrum(z, pixel_size=PIXEL, tiles=512)
-    square = np.sum(found.density * found.count) * (2 * np.pi) ** 2 / (z.size * PIXEL**2)
+    result = power_spectrum(z, pixel_size=PIXEL, tiles=512)
+    square = np.sum(result.density * result.count) * (2 * np.pi) ** 2 / (z.size * PIXEL**2)
     assert square == pytest.approx(np.var(z), rel=0.03)
 
 

@@ -68,9 +68,9 @@ def test_a_band_of_the_shear_stress_is_its_share_of_mu():
     alone = asperity.AdhesionFit(
         **{**STICKING._arguments(), "covariance": np.diag([1e10, 0.0, 0.0])}
     )
-    found = friction(ROAD, RUBBER, **POINTS, adhesion=alone)
+    result = friction(ROAD, RUBBER, **POINTS, adhesion=alone)
     band = friction_band(ROAD, RUBBER, **POINTS, adhesion=alone, method="linear", level=0.6827)
-    assert width(band) / 2 == pytest.approx(found.adhesion / found.mu * 0.05, rel=1e-3)
+    assert width(band) / 2 == pytest.approx(result.adhesion / result.mu * 0.05, rel=1e-3)
 
 
 def test_modes_of_a_smooth_build_are_as_large_as_draws():

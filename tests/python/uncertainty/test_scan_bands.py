@@ -44,14 +44,14 @@ def test_bands_of_one_scan_hold_the_mean_of_the_others() -> None:
     for scan, spectrum in scans():
         scene = {**SCENE, "correction": asperity.ScanContact(scan)}
         mu.append(asperity.friction(spectrum, RUBBER, **scene).mu)
-        for level, found in bands.items():
+        for level, result in bands.items():
             band = asperity.friction_band(spectrum, RUBBER, level=level, **scene)
-            found.append([band.lower, band.upper])
+            result.append([band.lower, band.upper])
     of_all = np.array(mu)
     others = (of_all.sum(axis=0) - of_all) / (len(of_all) - 1)
     held = {
-        level: np.mean((np.array(found)[:, 0] <= others) & (others <= np.array(found)[:, 1]))
-        for level, found in bands.items()
+        level: np.mean((np.array(result)[:, 0] <= others) & (others <= np.array(result)[:, 1]))
+        for level, result in bands.items()
     }
     assert held[0.95] >= 0.85
     assert 0.3 < held[0.5] < 0.8

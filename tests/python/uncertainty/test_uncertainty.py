@@ -322,9 +322,9 @@ def test_between_its_velocities_a_band_runs_straight_over_ln_v():
     points = {"pressure": np.full(25, 2e5), "velocity": velocity}
     direct = relative_band(*parts, points, **how)
     swept = swept_band(*parts, np.array([2e5]), velocity, {}, **how)
-    for exact, (found,) in zip(direct[:2], swept[:2], strict=True):
-        np.testing.assert_allclose(found[::2], exact[::2], rtol=1e-9)
-        np.testing.assert_allclose(found[1::2], (found[:-1:2] + found[2::2]) / 2, rtol=1e-12)
+    for exact, (result,) in zip(direct[:2], swept[:2], strict=True):
+        np.testing.assert_allclose(result[::2], exact[::2], rtol=1e-9)
+        np.testing.assert_allclose(result[1::2], (result[:-1:2] + result[2::2]) / 2, rtol=1e-12)
 
 
 def test_a_scene_takes_the_fitted_law_beyond_what_the_scan_resolves(scene, tmp_path, capsys):

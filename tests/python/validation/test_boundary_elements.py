@@ -67,17 +67,17 @@ def test_as_the_shipped_rows() -> None:
     loads = [0.01, 0.05, 0.2, 0.5]
     rows = [c for c in shipped() if c.case.startswith("H0.8_k4-64_N512")]
     maps = [rough(256, 4, 64, seed) for seed in (1, 2)]
-    found = [contact(map, p_over_Eh=loads, periodic=True) for map in maps]
-    assert 2.0 < np.mean([c.area[0] for c in found]) / loads[0] < 2.5
+    result = [contact(map, p_over_Eh=loads, periodic=True) for map in maps]
+    assert 2.0 < np.mean([c.area[0] for c in result]) / loads[0] < 2.5
     for i, load in enumerate(loads):
         near = [row for row in rows if abs(row.load / load - 1) < 1e-6]
         assert len(near) >= 2
-        area = np.mean([c.area[i] for c in found]) / np.mean([row.area for row in near])
+        area = np.mean([c.area[i] for c in result]) / np.mean([row.area for row in near])
         # three times the scatter of single seeds, 4.7, 1.5, 0.8 and 0.3 %, and 1 % for pixels
         assert area == pytest.approx(1, abs=(0.15, 0.055, 0.034, 0.019)[i])
         # of full contact, (E*/4) sum q |h_q|^2: 1.3139673e-3 for the rows' modes and h_rms = 0.01
         expected = np.mean([row.energy for row in near]) / 1.3139673e-3
-        share = [c.elastic_energy[i] / full_energy(m) for c, m in zip(found, maps, strict=True)]
+        share = [c.elastic_energy[i] / full_energy(m) for c, m in zip(result, maps, strict=True)]
         # the same of 9.6, 4.7, 2.7 and 1.2 %
         assert np.mean(share) == pytest.approx(expected, rel=(0.29, 0.14, 0.08, 0.036)[i])
 
@@ -118,10 +118,10 @@ def test_hertz(pixels: int) -> None:
     a = pixels / n
     q, power = modes(ball)
     load = 4 * a**3 / (3 * radius) / np.sqrt(np.sum(q**2 * power))
-    found = contact(ball, p_over_Eh=[load], periodic=True)
+    result = contact(ball, p_over_Eh=[load], periodic=True)
     # measured: a raw radius is 0.15 pixels too large, a corrected one right to 0.05
-    assert found.area[0] == pytest.approx(np.pi * a**2, rel=2 * 0.05 / pixels)
-    assert found.area_raw[0] > (1 + 2 * 0.1 / pixels) * np.pi * a**2
+    assert result.area[0] == pytest.approx(np.pi * a**2, rel=2 * 0.05 / pixels)
+    assert result.area_raw[0] > (1 + 2 * 0.1 / pixels) * np.pi * a**2
 
 
 def test_pixels_need_not_be_square() -> None:

@@ -47,7 +47,7 @@ def test_a_row_is_what_slide_gives(number):
         one[1] for one in make_exact_direction.SETS if one[0] == name and one[2] == row["hurst"]
     )
     points, side = make_exact_direction.POINTS, make_exact_direction.SIDE
-    found = [
+    result = [
         slide(
             asperity.synthesize(
                 spectrum_of(name, row), shape=(points, points), pixel_size=side / points, seed=seed
@@ -59,11 +59,11 @@ def test_a_row_is_what_slide_gives(number):
         )
         for seed in seeds
     ]
-    assert np.mean([one.contact_area for one in found]) == pytest.approx(
+    assert np.mean([one.contact_area for one in result]) == pytest.approx(
         row["contact_area"], rel=2e-3
     )
-    assert np.mean([one.hysteresis for one in found]) == pytest.approx(row["mu"], rel=2e-3)
-    assert np.mean([one.lateral for one in found]) == pytest.approx(
+    assert np.mean([one.hysteresis for one in result]) == pytest.approx(row["mu"], rel=2e-3)
+    assert np.mean([one.lateral for one in result]) == pytest.approx(
         row["lateral"], abs=2e-3 * row["mu"]
     )
 
@@ -79,18 +79,18 @@ def test_partial_contact_over_ridges():
     for name, rubber, row in rows():
         if row["axis_ratio"] == 1:
             continue
-        found = asperity.friction(
+        result = asperity.friction(
             spectrum_of(name, row),
             make_exact_direction.series(rubber),
             **point(row),
             correction=PartialContact(),
             rtol=1e-4,
         )
-        mu = found.mu / row["mu"] - 1
-        ratio = found.lateral / found.mu - row["lateral"] / row["mu"]
-        off[name].append((mu, found.contact_area / row["contact_area"] - 1, ratio))
+        mu = result.mu / row["mu"] - 1
+        ratio = result.lateral / result.mu - row["lateral"] / row["mu"]
+        off[name].append((mu, result.contact_area / row["contact_area"] - 1, ratio))
         if name != "fit":
-            said.append((mu, found.model_error))
+            said.append((mu, result.model_error))
     for name, errors in off.items():
         mu, area, ratio = np.sqrt(np.mean(np.square(errors), axis=0))
         assert mu < 0.08

@@ -24,9 +24,9 @@ WIDE = make_exact_sliding_wide.rows()
 @pytest.mark.parametrize("name", ["a_39", "ja_7", "sk_5"])
 def test_rows_are_what_the_solver_gives(name):
     (row,) = [row for row in ROWS if row["case"] == name]
-    found = make_exact_sliding.solved(row)
-    assert float(found["A"]) == pytest.approx(float(row["A"]), rel=2e-3)
-    assert float(found["mu"]) == pytest.approx(float(row["mu"]), rel=1e-3)
+    result = make_exact_sliding.solved(row)
+    assert float(result["A"]) == pytest.approx(float(row["A"]), rel=2e-3)
+    assert float(result["mu"]) == pytest.approx(float(row["mu"]), rel=1e-3)
 
 
 def test_spectra_belong_to_the_contacts_that_judge():
@@ -48,10 +48,10 @@ def test_spectra_belong_to_the_contacts_that_judge():
 def test_waves_dissipate_what_the_solver_says():
     row = next(row for row in ROWS if row["case"] == "ja_8")
     small = row | {"points": "128", "k0": "4", "k1": "16"}
-    found = make_exact_spectra.solved(small)  # raises where sum q_x Im K |p|^2 is not mu
-    rings = {name: np.array(found[name].split(";"), float) for name in make_exact_spectra.LISTS}
+    result = make_exact_spectra.solved(small)  # raises where sum q_x Im K |p|^2 is not mu
+    rings = {name: np.array(result[name].split(";"), float) for name in make_exact_spectra.LISTS}
     assert rings["edges"][-1] == pytest.approx(64)
-    assert 0.9 < rings["loss"].sum() / float(found["mu"]) < 1  # the rest is in the corners
+    assert 0.9 < rings["loss"].sum() / float(result["mu"]) < 1  # the rest is in the corners
 
 
 def parts(row):
@@ -72,8 +72,8 @@ def parts(row):
 def by_the_package(row):
     """mu and A/A0 by PartialContact."""
     surface, rubber, conditions = parts(row)
-    found = asperity.friction(surface, rubber, **conditions, correction=asperity.PartialContact())
-    return float(found.hysteresis), float(found.contact_area)
+    result = asperity.friction(surface, rubber, **conditions, correction=asperity.PartialContact())
+    return float(result.hysteresis), float(result.contact_area)
 
 
 def gaussian(chosen):
@@ -111,11 +111,11 @@ def cells(scenes, correction):
     """
     errors = {}
     for surface, rubber, conditions, mu in scenes:
-        found = asperity.friction(surface, rubber, **conditions, correction=correction)
+        result = asperity.friction(surface, rubber, **conditions, correction=correction)
         cell = float(asperity.friction(surface, rubber, **conditions).model_error)
         if np.isfinite(cell):
-            some = errors.setdefault(cell, (float(found.model_error), []))[1]
-            some.append(float(found.hysteresis) / mu - 1)
+            some = errors.setdefault(cell, (float(result.model_error), []))[1]
+            some.append(float(result.hysteresis) / mu - 1)
     return errors.values()
 
 
@@ -141,9 +141,9 @@ def test_model_error_is_what_contacts_that_no_fit_saw_are_off(correction, chosen
             for row in make_exact_sliding_ends.rows()
             if row["set"] == "narrow" and float(row["A"]) < 0.96 and ratio(row) < 5
         ]
-    found = cells(scenes, correction)
-    assert len(found) == count
-    for told, errors in found:
+    result = cells(scenes, correction)
+    assert len(result) == count
+    for told, errors in result:
         with case(told=told, contacts=len(errors)):
             assert np.sqrt(np.mean(np.square(errors))) == pytest.approx(told, abs=6e-4)
 
@@ -158,7 +158,7 @@ def ends(chosen):
     for row in make_exact_sliding_ends.rows():
         if row["set"] != chosen or float(row["A"]) > 0.96:
             continue
-        found = asperity.friction(
+        result = asperity.friction(
             make_exact_sliding_ends.spectrum(row),
             make_exact_sliding.rubber(row["rubber"]),
             pressure=float(row["pressure"]),
@@ -166,7 +166,7 @@ def ends(chosen):
             correction=asperity.PartialContact(),
         )
         truth = float(row["mu"]), float(row["A"])
-        errors.append((found.hysteresis / truth[0] - 1, found.contact_area / truth[1] - 1))
+        errors.append((result.hysteresis / truth[0] - 1, result.contact_area / truth[1] - 1))
         wide.append(ratio(row))
     return np.array(errors), np.array(wide)
 
@@ -174,9 +174,9 @@ def ends(chosen):
 @pytest.mark.parametrize("name", ["e_12", "n_40"])
 def test_rows_of_other_ends_are_what_the_solver_gives(name):
     (row,) = [row for row in make_exact_sliding_ends.rows() if row["case"] == name]
-    found = make_exact_sliding_ends.solved(row)
-    assert float(found["A"]) == pytest.approx(float(row["A"]), rel=2e-3)
-    assert float(found["mu"]) == pytest.approx(float(row["mu"]), rel=1e-3)
+    result = make_exact_sliding_ends.solved(row)
+    assert float(result["A"]) == pytest.approx(float(row["A"]), rel=2e-3)
+    assert float(result["mu"]) == pytest.approx(float(row["mu"]), rel=1e-3)
 
 
 def test_the_rule_holds_where_a_spectrum_ends_softly():
@@ -202,16 +202,16 @@ def wide(kind):
     ]
     errors = []
     for row, (mu, area) in chosen:
-        found = by_the_package(row if mu else row | {"velocity": "1e-12"})
-        errors.append((found[0] / (mu or 1) - 1, found[1] / area - 1))
+        result = by_the_package(row if mu else row | {"velocity": "1e-12"})
+        errors.append((result[0] / (mu or 1) - 1, result[1] / area - 1))
     return np.array(errors)
 
 
 def test_a_nested_contact_is_what_the_solver_gives():
     (row,) = [row for row in WIDE if row["case"] == "n_5"]
-    found = make_exact_sliding_wide.solved(row)
-    assert float(found["A_nested"]) == pytest.approx(float(row["A_nested"]), rel=5e-3)
-    assert float(found["mu_nested"]) == pytest.approx(float(row["mu_nested"]), rel=5e-3)
+    result = make_exact_sliding_wide.solved(row)
+    assert float(result["A_nested"]) == pytest.approx(float(row["A_nested"]), rel=5e-3)
+    assert float(result["mu_nested"]) == pytest.approx(float(row["mu_nested"]), rel=5e-3)
 
 
 def test_nested_contacts_are_near_those_of_one_grid():

@@ -45,9 +45,9 @@ def test_without_a_clone_a_script_does_nothing(script: str, tmp_path: Path) -> N
 def test_the_scheme_with_one_number_is_that_of_the_commercial_program(
     presets: clone.Presets,
 ) -> None:
-    found = program.compare(presets)
-    plain = found["S100, small strain, $q_1$ 1.05e6"]["S twice, 0.50"]
-    softened = found["S100, 0.3 MPa"]["S twice, 0.60"]
+    result = program.compare(presets)
+    plain = result["S100, small strain, $q_1$ 1.05e6"]["S twice, 0.50"]
+    softened = result["S100, 0.3 MPa"]["S twice, 0.60"]
     for (_, _, mu, area), of_mu, of_area in ((plain, 0.02, 0.04), (softened, 0.09, 0.02)):
         assert abs(mu.mean()) < of_mu
         assert abs(area.mean()) < of_area
@@ -73,9 +73,9 @@ def test_an_adhesion_fitted_to_other_compounds_tells_no_more_than_their_mean(
 
 
 def test_the_programs_spectrum_is_that_of_the_tops_not_divided(presets: clone.Presets) -> None:
-    found = road_profile.spectra(cloned("psd"), presets)
+    result = road_profile.spectra(cloned("psd"), presets)
     q = np.geomspace(5e3, 1e5, 20)
-    ratio = found["commercial program"].at(q) / found["top, not divided"].at(q)
+    ratio = result["commercial program"].at(q) / result["top, not divided"].at(q)
     assert abs(np.log(ratio).mean()) < 0.15
-    full = found["commercial program"].at(q) / found["full"].at(q)
+    full = result["commercial program"].at(q) / result["full"].at(q)
     assert np.exp(np.log(full).mean()) == pytest.approx(0.24, abs=0.03)

@@ -54,11 +54,11 @@ def test_reference_table(reference_table: Callable[[str], list[dict[str, Any]]])
             surface = asperity.HeightMap(h, pixel_size=row["length"] / n)
             # the error that is promised, and what is left of it where it is small
             for rtol, bound in ((1e-6, 1e-5), (1e-11, row["rtol"])):
-                found = slide(surface, rubber, **given, periodic=True, rtol=rtol)
-                assert found.error <= rtol
-                assert found.contact_area_raw == pytest.approx(row["contact_area"], rel=1e-14)
+                result = slide(surface, rubber, **given, periodic=True, rtol=rtol)
+                assert result.error <= rtol
+                assert result.contact_area_raw == pytest.approx(row["contact_area"], rel=1e-14)
                 for name in ("hysteresis", "work_of_slopes", "elastic_energy"):
-                    assert getattr(found, name) == pytest.approx(row[name], rel=bound)
+                    assert getattr(result, name) == pytest.approx(row[name], rel=bound)
 
 
 @pytest.mark.parametrize("skew", [0, 1, 3])
@@ -71,17 +71,17 @@ def test_complete_contact_of_one_wave(skew: int) -> None:
     )
     qx, q = 2 * np.pi * k / LENGTH, 2 * np.pi * np.hypot(k, skew) / LENGTH
     modulus = SOLID.modulus(v * qx)
-    found = slide(surface, SOLID, pressure=load, velocity=v, poisson_ratio=nu, periodic=True)
+    result = slide(surface, SOLID, pressure=load, velocity=v, poisson_ratio=nu, periodic=True)
     expected = qx * a**2 * q * modulus.imag / (4 * (1 - nu**2) * load)
-    assert found.hysteresis == pytest.approx(expected, rel=1e-12)
-    assert found.work_of_slopes == pytest.approx(expected, rel=1e-12)
-    assert found.contact_area == found.contact_area_raw == 1
+    assert result.hysteresis == pytest.approx(expected, rel=1e-12)
+    assert result.work_of_slopes == pytest.approx(expected, rel=1e-12)
+    assert result.contact_area == result.contact_area_raw == 1
     amplitude = a * q * abs(modulus) / (2 * (1 - nu**2))
-    assert found.pressure.max() == pytest.approx(load + amplitude, rel=3e-3)  # between points
-    assert found.elastic_energy == pytest.approx(
+    assert result.pressure.max() == pytest.approx(load + amplitude, rel=3e-3)  # between points
+    assert result.elastic_energy == pytest.approx(
         q * a**2 * modulus.real / (8 * (1 - nu**2)), rel=1e-12
     )
-    assert not found.gap.any()
+    assert not result.gap.any()
 
 
 @pytest.mark.parametrize(("velocity", "modulus"), [(0.0, 1e6), (1e-12, 1e6), (1e14, 1e7)])
@@ -91,12 +91,12 @@ def test_both_limits_are_elastic(velocity: float, modulus: float) -> None:
     for load in (0.02, 0.1, 0.4):
         elastic = boundary_elements.pressed(surface, load * surface.rms_slope, 1e-10)
         pressure = load * effective * surface.rms_slope
-        found = pressed(surface, pressure=pressure, velocity=velocity, rtol=1e-9)
-        assert found.contact_area_raw == elastic.area_raw
-        assert found.contact_area == pytest.approx(elastic.area, rel=1e-12)
-        assert found.elastic_energy == pytest.approx(elastic.energy * effective, rel=1e-6)
-        assert found.gap.mean() == pytest.approx(elastic.mean_gap, rel=1e-6)
-        assert abs(found.hysteresis) < 1e-8
+        result = pressed(surface, pressure=pressure, velocity=velocity, rtol=1e-9)
+        assert result.contact_area_raw == elastic.area_raw
+        assert result.contact_area == pytest.approx(elastic.area, rel=1e-12)
+        assert result.elastic_energy == pytest.approx(elastic.energy * effective, rel=1e-6)
+        assert result.gap.mean() == pytest.approx(elastic.mean_gap, rel=1e-6)
+        assert abs(result.hysteresis) < 1e-8
 
 
 def shipped(kind: Callable[[dict[str, str]], bool]) -> list[tuple[float, float]]:
@@ -108,8 +108,11 @@ def shipped(kind: Callable[[dict[str, str]], bool]) -> list[tuple[float, float]]
         surface = contact_tables.map_of_another_program(row, int(row["N"]))
         _, rubber, at = contact_tables.scene_of_another_program(row)
         with case(**row):
-            found = slide(surface, rubber, **at, periodic=True, rtol=1e-5)
-        mu, area = found.hysteresis / float(row["mu"]) - 1, found.contact_area / float(row["A"]) - 1
+            result = slide(surface, rubber, **at, periodic=True, rtol=1e-5)
+        mu, area = (
+            result.hysteresis / float(row["mu"]) - 1,
+            result.contact_area / float(row["A"]) - 1,
+        )
         with case(**row, mu_error=mu, area_error=area):
             # four times the scatter of maps
             assert abs(mu) < 0.10
@@ -142,16 +145,16 @@ def test_all_rows_of_another_program() -> None:
 
 def test_dissipation_is_the_work_of_the_slopes_on_fine_meshes() -> None:
     fine = rough(256, 16)
-    found = []
+    result = []
     for step in (4, 2, 1):  # 4, 8, 16 points a shortest wave
         heights = np.ascontiguousarray(fine.heights[::step, ::step])
         thinned = asperity.HeightMap(heights, pixel_size=step * LENGTH / 256)
-        found.append(pressed(thinned, velocity=0.03))
-    missing = [abs(c.work_of_slopes / c.hysteresis - 1) for c in found]
+        result.append(pressed(thinned, velocity=0.03))
+    missing = [abs(c.work_of_slopes / c.hysteresis - 1) for c in result]
     assert missing[0] > missing[1] > missing[2]
     assert missing[2] < 0.004
-    assert found[1].hysteresis == pytest.approx(found[2].hysteresis, rel=0.01)
-    assert found[1].contact_area == pytest.approx(found[2].contact_area, rel=0.015)
+    assert result[1].hysteresis == pytest.approx(result[2].hysteresis, rel=0.01)
+    assert result[1].contact_area == pytest.approx(result[2].contact_area, rel=0.015)
 
 
 def test_mirrored_and_shifted_maps() -> None:
@@ -173,10 +176,10 @@ def test_mirrored_and_shifted_maps() -> None:
 def test_units(scale: float) -> None:
     surface, first = rough(48, 8), pressed(rough(48, 8), rtol=1e-9)
     long = asperity.HeightMap(surface.heights * scale, pixel_size=surface.pixel_size[0] * scale)
-    found = pressed(long, velocity=0.3 * scale, rtol=1e-9)
-    assert found.hysteresis == pytest.approx(first.hysteresis, rel=1e-8)
-    assert found.contact_area == pytest.approx(first.contact_area, rel=1e-12)
-    assert found.gap.mean() == pytest.approx(first.gap.mean() * scale, rel=1e-8)
+    result = pressed(long, velocity=0.3 * scale, rtol=1e-9)
+    assert result.hysteresis == pytest.approx(first.hysteresis, rel=1e-8)
+    assert result.contact_area == pytest.approx(first.contact_area, rel=1e-12)
+    assert result.gap.mean() == pytest.approx(first.gap.mean() * scale, rel=1e-8)
 
 
 def test_pixels_need_not_be_square() -> None:
@@ -184,9 +187,9 @@ def test_pixels_need_not_be_square() -> None:
     wide = asperity.HeightMap(fine.heights[:, ::2], pixel_size=(LENGTH / 128, LENGTH / 64))
     tall = asperity.HeightMap(fine.heights[::2], pixel_size=(LENGTH / 64, LENGTH / 128))
     first = pressed(fine)
-    for found in (pressed(wide), pressed(tall)):
-        assert found.hysteresis == pytest.approx(first.hysteresis, rel=0.02)
-        assert found.contact_area == pytest.approx(first.contact_area, rel=0.03)
+    for result in (pressed(wide), pressed(tall)):
+        assert result.hysteresis == pytest.approx(first.hysteresis, rel=0.02)
+        assert result.contact_area == pytest.approx(first.contact_area, rel=0.03)
 
 
 def test_ways_to_make_a_map_periodic() -> None:
@@ -232,7 +235,7 @@ def test_a_wave_in_complete_contact_knows_its_direction(direction: float) -> Non
     surface = asperity.HeightMap(heights, pixel_size=LENGTH / n)
     v = 2.0
     s = np.array([np.cos(direction), np.sin(direction)])
-    found = slide(
+    result = slide(
         surface,
         SOLID,
         pressure=load,
@@ -241,13 +244,13 @@ def test_a_wave_in_complete_contact_knows_its_direction(direction: float) -> Non
         direction=direction,
         periodic=True,
     )
-    assert found.contact_area == 1
+    assert result.contact_area == 1
     # p = |q| conj E h / (2 (1 - nu^2)) of the wave, and its work
     loss = SOLID.modulus(v * abs(q @ s)).imag * np.sign(q @ s)
     work = amplitude**2 * np.hypot(*q) * loss / (4 * (1 - nu**2) * load)
-    assert found.hysteresis == pytest.approx(work * (q @ s), rel=1e-9)
-    assert found.work_of_slopes == pytest.approx(found.hysteresis, rel=1e-9)
-    assert found.lateral == pytest.approx(work * (q @ [-s[1], s[0]]), rel=1e-9)
+    assert result.hysteresis == pytest.approx(work * (q @ s), rel=1e-9)
+    assert result.work_of_slopes == pytest.approx(result.hysteresis, rel=1e-9)
+    assert result.lateral == pytest.approx(work * (q @ [-s[1], s[0]]), rel=1e-9)
 
 
 def test_a_turned_map_is_a_turned_direction() -> None:
@@ -291,9 +294,9 @@ def test_master_curve_must_reach_all_waves() -> None:
     e = SOLID.modulus(w)
     curve = asperity.MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
     surface = rough(32, 8)
-    found = slide(surface, curve, pressure=2e5, velocity=0.3, periodic=True)
+    result = slide(surface, curve, pressure=2e5, velocity=0.3, periodic=True)
     series = pressed(surface)
-    assert found.hysteresis == pytest.approx(series.hysteresis, rel=2e-3)
+    assert result.hysteresis == pytest.approx(series.hysteresis, rel=2e-3)
     with pytest.raises(asperity.OutOfRange, match=r"velocities from 0\.00159.* to 9\.94"):
         slide(surface, curve, pressure=2e5, velocity=50.0, periodic=True)
     with pytest.raises(asperity.OutOfRange, match="velocity = 0 m/s"):
@@ -340,12 +343,12 @@ def test_time_limit_says_what_was_reached() -> None:
 
 def test_progress_is_told_every_step_coarse_grids_first() -> None:
     told: list[SlidingStep] = []
-    found = pressed(rough(256, 32), rtol=1e-6, progress=told.append)
+    result = pressed(rough(256, 32), rtol=1e-6, progress=told.append)
     first = [at.shape for at in told if at.step == 1]
     assert first == [(64, 64), (128, 128), (256, 256)]
     assert told[-1].shape == (256, 256)
-    assert told[-1].error == pytest.approx(found.error, rel=1e-3)
-    assert found == pressed(rough(256, 32), rtol=1e-6)
+    assert told[-1].error == pytest.approx(result.error, rel=1e-3)
+    assert result == pressed(rough(256, 32), rtol=1e-6)
 
 
 def test_steepest_moduli_take_few_steps() -> None:

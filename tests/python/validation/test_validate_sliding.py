@@ -23,11 +23,11 @@ def rows(path):
 
 
 def test_exact_figures_are_those_of_slide_and_predicted_ones_those_of_friction():
-    found = compare(MAP, SOLID, pressure=[5e4, 2e5], velocity=[0.01, 0.1, 1.0], periodic=True)
-    assert found.hysteresis.shape == (2, 3)
+    result = compare(MAP, SOLID, pressure=[5e4, 2e5], velocity=[0.01, 0.1, 1.0], periodic=True)
+    assert result.hysteresis.shape == (2, 3)
     one = slide(MAP, SOLID, pressure=2e5, velocity=0.1, periodic=True)
-    assert found.hysteresis[1, 1] == pytest.approx(one.hysteresis, rel=1e-12)
-    assert found.area[1, 1] == pytest.approx(one.contact_area, rel=1e-12)
+    assert result.hysteresis[1, 1] == pytest.approx(one.hysteresis, rel=1e-12)
+    assert result.area[1, 1] == pytest.approx(one.contact_area, rel=1e-12)
     # full modes of the map: where contact is complete the theory without correction is exact but
     # for directions, of which a map has few
     heavy = compare(MAP, SOLID, pressure=[1e8], velocity=[0.1], periodic=True)
@@ -58,8 +58,8 @@ def test_a_map_and_a_rubber_of_ones_own(undrawn, tmp_path, capsys):
 
 def test_the_picture_has_exact_marks_and_predicted_lines(tmp_path):
     pytest.importorskip("matplotlib")
-    found = compare(MAP, SOLID, pressure=[5e4], velocity=[0.1, 1.0], periodic=True)
-    assert found.figure(tmp_path / "x.png").startswith(b"\x89PNG")
+    result = compare(MAP, SOLID, pressure=[5e4], velocity=[0.1, 1.0], periodic=True)
+    assert result.figure(tmp_path / "x.png").startswith(b"\x89PNG")
 
 
 def test_the_map_where_none_is_given_holds_its_waves():

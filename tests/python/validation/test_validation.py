@@ -122,17 +122,17 @@ def test_area_errors_are_those_of_an_analysis_made_before(load):
 
 
 def test_the_factor_that_knows_the_band_halves_the_error_of_s_inside_g():
-    found, other = (np.abs(errors("area", name)) for name in ("Nayak S", "S in G, 5/9"))
-    assert found.mean() < other.mean() / 2
-    assert found.max() < other.max() / 2
+    result, other = (np.abs(errors("area", name)) for name in ("Nayak S", "S in G, 5/9"))
+    assert result.mean() < other.mean() / 2
+    assert result.max() < other.max() / 2
 
 
 @pytest.mark.parametrize("index", [0, 60, 120, 170])
 def test_needed_shifts_give_the_exact_area_and_energy(index):
     contact = CONTACTS[index]
     shift = asperity.AffineShift(needed_shift(contact))
-    found = predict(contact, dataclasses.replace(MODELS[0], correction=lambda _: shift))
-    assert found.area_error == pytest.approx(0, abs=1e-6)
+    result = predict(contact, dataclasses.replace(MODELS[0], correction=lambda _: shift))
+    assert result.area_error == pytest.approx(0, abs=1e-6)
     p = needed_shift_for_energy(contact)
     if math.isnan(p):  # no shift of 1 or more does
         assert energy(contact, None) < contact.energy

@@ -19,13 +19,13 @@ UNIT = re.compile(r"\[(K|m|1/m|m\^[234]|Pa|Pa\^2|1/Pa|J/mol|rad/s|s|m/s|N|-)\]")
 
 def named(text, *sections):
     """The names that stand at the margin of a section of a NumPy docstring."""
-    found = set()
+    result = set()
     for section in sections:
         match = re.search(rf"^{section}\n-+\n(.*?)(?=^\w[\w ]*\n---|\Z)", text + "\n", re.M | re.S)
         for line in match[1].splitlines() if match else ():
             if line and not line.startswith(" "):
-                found.update(re.findall(r"\w+", line.split(" : ")[0]))
-    return found
+                result.update(re.findall(r"\w+", line.split(" : ")[0]))
+    return result
 
 
 def arguments(function):

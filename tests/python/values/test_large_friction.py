@@ -33,21 +33,21 @@ def test_the_page_has_every_note_that_is_to_be_acted_on() -> None:
     [(ROAD, 0.0, False), (ROAD, 1e6, False), (ROAD, 4e7, True), (STEEP, 0.0, True)],
 )
 def test_its_note_has_the_largest_mu(road: object, shear_stress: float, large: bool) -> None:
-    found = asperity.friction(
+    result = asperity.friction(
         road,
         RUBBER,
         pressure=1e5,
         velocity=[1e-4, 1e-2, 1],
         adhesion=asperity.Adhesion(shear_stress=shear_stress),
     )
-    values = [note.value for note in found.notes if note.code == "large-friction"]
-    assert values == ([found.mu.max()] if large else [])
-    assert (found.mu.max() > 4) == large
+    values = [note.value for note in result.notes if note.code == "large-friction"]
+    assert values == ([result.mu.max()] if large else [])
+    assert (result.mu.max() > 4) == large
 
 
 @pytest.mark.parametrize(("shear_stress", "large"), [(1e6, False), (2e8, True)])
 def test_with_heat_the_hot_friction_counts(shear_stress: float, large: bool) -> None:
-    found = asperity.friction(
+    result = asperity.friction(
         STEEP,
         SOFT,
         pressure=1e5,
@@ -58,6 +58,6 @@ def test_with_heat_the_hot_friction_counts(shear_stress: float, large: bool) -> 
         adhesion=asperity.Adhesion(shear_stress=shear_stress, reference_velocity=1),
         rtol=1e-3,
     )
-    assert found.cold.mu > 4
-    assert (found.mu > 4) == large
-    assert any(note.code == "large-friction" for note in found.notes) == large
+    assert result.cold.mu > 4
+    assert (result.mu > 4) == large
+    assert any(note.code == "large-friction" for note in result.notes) == large

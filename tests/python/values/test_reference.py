@@ -46,12 +46,12 @@ def test_hertz_penetration(row):
 @pytest.mark.reference("greenwood_williamson")
 def test_separations_of_both_readings(row, reading):
     names = ("pressure", "effective_modulus", "rms_height", "q0")
-    found = asperity.separation(
+    result = asperity.separation(
         **{name: row[name] for name in names},
         peaks=row["peaks"] if row["peaks"].size else None,
         reading=reading,
     )
-    for kind, value in (("effective", found.effective), ("rigid", found.rigid)):
+    for kind, value in (("effective", result.effective), ("rigid", result.rigid)):
         column = f"{kind}_{reading}"
         close(row, [column], [value], scale=max(row["rms_height"], abs(row[column])))
 
@@ -59,22 +59,22 @@ def test_separations_of_both_readings(row, reading):
 @pytest.mark.reference("spectrum")
 def test_self_affine_spectrum(row):
     spectrum = self_affine(row)
-    found = [spectrum.at(row["wavenumber"]), spectrum.rms_slope, spectrum.cutoff_for_slope()]
-    close(row, ["density", "rms_slope", "slope_cutoff"], found)
+    result = [spectrum.at(row["wavenumber"]), spectrum.rms_slope, spectrum.cutoff_for_slope()]
+    close(row, ["density", "rms_slope", "slope_cutoff"], result)
 
 
 @pytest.mark.reference("tabulated_spectrum")
 def test_tabulated_spectrum(row):
     spectrum = tabulated(row)
-    found = [spectrum.at(row["wavenumber"]), spectrum.rms_height, spectrum.rms_slope]
+    result = [spectrum.at(row["wavenumber"]), spectrum.rms_height, spectrum.rms_slope]
     names = ["density", "rms_height", "rms_slope", "slope_cutoff"]
-    close(row, names, [*found, spectrum.cutoff_for_slope()])
+    close(row, names, [*result, spectrum.cutoff_for_slope()])
 
 
 @pytest.mark.reference("autocorrelation")
 def test_autocorrelation_of_self_affine_spectra(row):
-    found = self_affine(row).autocorrelation(row["distance"])
-    close(row, ["autocorrelation"], [found], scale=row["rms_height"] ** 2)
+    result = self_affine(row).autocorrelation(row["distance"])
+    close(row, ["autocorrelation"], [result], scale=row["rms_height"] ** 2)
 
 
 def area_at(g, spectrum, correction, rtol):
@@ -96,8 +96,8 @@ def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
     q1 = 1e3 * row["q1_over_q0"]
     spectrum = SelfAffineSpectrum(rms_height=1e-4, hurst=row["hurst"], q0=1e3, q1=q1)
     close(row, ["nayak_parameter"], [spectrum.nayak_parameter])
-    found = area_at(row["g_uncorrected"], spectrum, asperity.NayakSFactor(), rtol)
-    close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [found])
+    result = area_at(row["g_uncorrected"], spectrum, asperity.NayakSFactor(), rtol)
+    close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [result])
 
 
 @pytest.mark.parametrize("rtol", [1e-4, 1e-12])
@@ -105,8 +105,8 @@ def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
 def test_area_with_s_of_the_area_that_results(row, rtol):
     spectrum = SelfAffineSpectrum(rms_height=1e-4, hurst=0.7, q0=1e3, q1=1e5)
     correction = asperity.ImplicitSFactor(gamma=row["gamma"])
-    found = area_at(row["g_uncorrected"], spectrum, correction, rtol)
-    close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [found])
+    result = area_at(row["g_uncorrected"], spectrum, correction, rtol)
+    close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [result])
 
 
 @pytest.mark.reference("pressure_distribution")
@@ -151,10 +151,10 @@ class FrictionTable:
 
     def test_friction_and_area(self, row):
         parts, conditions = self.scene(row, shifted_by_hand=False)
-        found = asperity.friction(*parts, **conditions)
-        close(row, ["hysteresis", "contact_area"], [found.hysteresis, found.contact_area])
-        assert found.shift_factor == row["shift_factor"]
-        assert found.mu == found.hysteresis
+        result = asperity.friction(*parts, **conditions)
+        close(row, ["hysteresis", "contact_area"], [result.hysteresis, result.contact_area])
+        assert result.shift_factor == row["shift_factor"]
+        assert result.mu == result.hysteresis
 
     def test_contact_area_alone(self, row):
         parts, conditions = self.scene(row, shifted_by_hand=False)
@@ -163,10 +163,10 @@ class FrictionTable:
     def test_s_factor_on_both(self, row):
         parts, conditions = self.scene(row, shifted_by_hand=True)
         correction = asperity.SFactor(gamma=row["gamma"], applies_to="both")
-        found = asperity.friction(*parts, **conditions, correction=correction)
+        result = asperity.friction(*parts, **conditions, correction=correction)
         area = asperity.contact_area(*parts, **conditions, correction=correction)
         names = ["hysteresis_s", "contact_area_s", "contact_area_s"]
-        close(row, names, [found.hysteresis, found.contact_area, area])
+        close(row, names, [result.hysteresis, result.contact_area, area])
 
     @pytest.mark.parametrize("rtol", [1e-3, 1e-6, 1e-9])
     @pytest.mark.parametrize("corrected", [False, True])
@@ -175,11 +175,11 @@ class FrictionTable:
     ):
         parts, conditions = self.scene(row, shifted_by_hand=True)
         correction = asperity.SFactor(gamma=row["gamma"]) if corrected else None
-        found = asperity.friction(*parts, **conditions, correction=correction, rtol=rtol)
+        result = asperity.friction(*parts, **conditions, correction=correction, rtol=rtol)
         expected = row["hysteresis_s" if corrected else "hysteresis"]
         rounding = 1e-11 * expected  # of the tables themselves: two methods agree this well
-        assert abs(found.mu - expected) <= found.error_estimate + rounding
-        assert found.error_estimate <= rtol * expected
+        assert abs(result.mu - expected) <= result.error_estimate + rounding
+        assert result.error_estimate <= rtol * expected
 
 
 @pytest.mark.reference("friction")

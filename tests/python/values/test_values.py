@@ -25,13 +25,13 @@ def test_equal_arguments_make_equal_values_and_others_do_not(name, arguments, ch
 def test_constructor_arguments_are_attributes(name, arguments, change):
     value = make(name, arguments)
     for field, given in arguments.items():
-        found = getattr(value, field)
+        result = getattr(value, field)
         if isinstance(given, list | np.ndarray):
-            np.testing.assert_array_equal(found, given)
+            np.testing.assert_array_equal(result, given)
         elif field == "pixel_size":
-            assert found == (given if isinstance(given, tuple) else (given, given))
+            assert result == (given if isinstance(given, tuple) else (given, given))
         else:
-            assert found == given
+            assert result == given
 
 
 @pytest.mark.parametrize("name", ALL)

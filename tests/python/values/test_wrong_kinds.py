@@ -157,9 +157,9 @@ def test_what_is_a_number_is_taken_as_one(value):
 
 def test_a_series_of_pandas_is_an_array_and_no_number():
     series = pytest.importorskip("pandas").Series
-    found = asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=series([0.01, 0.1]))
+    result = asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=series([0.01, 0.1]))
     np.testing.assert_array_equal(
-        found.mu, asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=[0.01, 0.1]).mu
+        result.mu, asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=[0.01, 0.1]).mu
     )
     for wrong in (series([0.5]), series([0.5] * 1000)):
         with pytest.raises(InvalidInput) as refused:

@@ -21,7 +21,7 @@ void check_scales(std::span<const Segment> surface) {
   for (const Segment& segment : surface)
     for (const auto& [q, c] : {std::pair{segment.a, segment.at_a}, std::pair{segment.b, segment.at_b}}) {
       const double fourth = (q * q) * (q * q);
-      if (!tellable(fourth) || (c != 0 && (!tellable(c) || !tellable(fourth * c))))
+      if (!is_representable(fourth) || (c != 0 && (!is_representable(c) || !is_representable(fourth * c))))
         throw InvalidInput(argument("spectrum") + ": density = " + value(c) + " m^4 at wavenumber = " + show(q) +
                            " 1/m" + must_be() + "such that C, q^4 and q^4 C are in [1e-280, 1e280]");
     }
