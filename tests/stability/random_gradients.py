@@ -172,6 +172,7 @@ def compute(seed: int, scene: int) -> Outcome:
         step = OF_ROWS if name.endswith("modulus") and measured else STEP
         try:
             near, far = ([mu(change(side * h)) for side in (-1, 1)] for h in (step, 2 * step))
+            here = middle().mu
         except asperity.Error:
             continue
         two, four = ((b.mu - a.mu) / h for (a, b), h in ((near, 2 * step), (far, 4 * step)))
@@ -180,7 +181,7 @@ def compute(seed: int, scene: int) -> Outcome:
         left = abs(best - two) / 2 + 3 * sum(one.error_estimate for one in near) / (2 * step)
         # a kink has a slope on each side: unlike a curvature it bends as much on half of a step;
         # twice that, as it may lie beside the middle
-        bend, wider = (abs(a.mu + b.mu - 2 * middle().mu) for a, b in (near, far))
+        bend, wider = (abs(a.mu + b.mu - 2 * here) for a, b in (near, far))
         left += 2 * abs(bend - wider / 4) / step
         if left <= TELLING * whole:
             stated = of.error_estimate * (10 if name == "temperature" else 1)

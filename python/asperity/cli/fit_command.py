@@ -29,9 +29,9 @@ from asperity.scene.experiment import (
     PARAMETERS,
     Experiment,
     Fitted,
+    found,
     nearest_pressure,
     pressures,
-    result,
 )
 from asperity.scene.scene import load_scene
 
@@ -91,7 +91,7 @@ def _fit_adhesion(args: Namespace) -> None:
         args,
         table,
         lambda picture: plot_fit.fit_figure(fits, experiment, picture),
-        result(adhesion),
+        found(adhesion),
     )
 
 
@@ -145,7 +145,7 @@ def _table(
         if fit.adhesion is not None:
             covariance = fit.adhesion.covariance.tolist()
             inputs[f"found{suffix}"] = {
-                **result(fit.adhesion),
+                **found(fit.adhesion),
                 "covariance": covariance,
                 "outlier_rows": (np.flatnonzero(fit.adhesion.outliers) + 1).tolist(),
             }
