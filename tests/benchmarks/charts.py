@@ -84,7 +84,7 @@ def page(tables: dict[str, str]) -> str:
     ]
     return (
         f"{machine}, one thread:\n\n{rings.markdown(result)}\n{timing.markdown(header, lines)}\n"
-        f"{timing.markdown(['at rtol 1e-6 unless said', 'result'], more)}"
+        f"{timing.markdown(['at rtol 1e-6 unless said', 'found'], more)}"
     )
 
 
