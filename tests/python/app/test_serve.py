@@ -90,7 +90,14 @@ def test_a_closed_terminal_leaves_no_folder(tmp_path: Path) -> None:
     os.utime(left, (0, 0))
     run = [sys.executable, "-m", "asperity", "app", "--no-browser"]
     environment = {**os.environ, "TMPDIR": str(tmp_path), "MPLBACKEND": "agg"}
-    with subprocess.Popen(run, stdout=subprocess.PIPE, text=True, env=environment) as process:
+    with subprocess.Popen(
+        run,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=environment,
+        # a test run under nohup hands its ignored signal on
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),
+    ) as process:
         assert process.stdout is not None
         assert get(process.stdout.readline().strip())[0] == 200
         (session,) = tmp_path.glob("asperity-app-*")
