@@ -3,13 +3,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 
 #include "numerics/arguments.hpp"
 #include "numerics/gauss_legendre.hpp"
+#include "spectrum/last_law.hpp"
 #include "spectrum/self_affine.hpp"
 
 namespace asperity {
@@ -193,17 +192,8 @@ TabulatedSpectrum table_of(const SelfAffineSpectrum& s) {
 }  // namespace
 
 std::shared_ptr<const Spectrum> rows_of_law(const SelfAffineSpectrum& law) {
-  static std::mutex mutex;
-  static SelfAffineSpectrum last;
-  static std::shared_ptr<const Spectrum> rows;
-  {
-    const std::scoped_lock lock(mutex);
-    if (rows && last == law) return rows;
-  }
-  auto result = std::make_shared<const Spectrum>(table_of(law));
-  const std::scoped_lock lock(mutex);
-  last = law;
-  return rows = std::move(result);
+  static OfLastLaw<const Spectrum> rows;
+  return rows(law, [&] { return std::make_shared<const Spectrum>(table_of(law)); });
 }
 
 TabulatedSpectrum directional_table(const Spectrum& spectrum) {

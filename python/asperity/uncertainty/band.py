@@ -337,19 +337,19 @@ def relative_band(
         result = at_points(surface, solid, added, softer)
         return held.mu(result, scatter) if held else result.mu
 
-    result: list[Any] = []
+    curves: list[Any] = []
     problem: Exception | None = None
     failed = 0
     with progress(range(samples)) as shown:
         for outcome in in_order(shown, draw, curve, threads):
             try:
-                result.append(outcome())
+                curves.append(outcome())
             except _FAILURES as error:
                 problem, failed = error, failed + 1
                 if failed > _FAILED * samples:
                     raise
     notes = () if problem is None else (_left_out(failed, samples, problem),)
-    drawn = np.array(result)
+    drawn = np.array(curves)
     ratio = np.divide(drawn, centre, out=np.ones_like(drawn), where=centre > 0)
     outside = (1 - level) / 2
     lower, upper = np.quantile(ratio, [outside, 1 - outside], axis=0)

@@ -12,6 +12,7 @@
 
 #include "asperity/watch.hpp"
 #include "spectrum/harmonics.hpp"
+#include "spectrum/last_law.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/table_surface.hpp"
 
@@ -353,9 +354,8 @@ struct Levels : TableSurface::Derived {
 };
 
 struct LevelsOfLaw : Levels {
-  SelfAffineSpectrum law;
   std::vector<Segment> surface;
-  explicit LevelsOfLaw(const SelfAffineSpectrum& of) : law(of), surface(segments(of)) {}
+  explicit LevelsOfLaw(const SelfAffineSpectrum& law) : surface(segments(law)) {}
 };
 
 }  // namespace
@@ -366,14 +366,8 @@ const RoughnessPieces& roughness_pieces(const TabulatedSpectrum& table, std::siz
 }
 
 std::shared_ptr<const RoughnessPieces> roughness_pieces(const SelfAffineSpectrum& law, std::size_t level) {
-  static std::mutex guard;
-  static std::shared_ptr<LevelsOfLaw> last;
-  std::shared_ptr<LevelsOfLaw> levels;
-  {
-    const std::scoped_lock lock(guard);
-    if (!last || last->law != law) last = std::make_shared<LevelsOfLaw>(law);
-    levels = last;
-  }
+  static OfLastLaw<LevelsOfLaw> last;
+  const std::shared_ptr<LevelsOfLaw> levels = last(law, [&] { return std::make_shared<LevelsOfLaw>(law); });
   return {levels, &levels->at(level, levels->surface, nullptr)};
 }
 
