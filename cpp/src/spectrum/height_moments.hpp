@@ -44,12 +44,13 @@ class HeightMoments {
     const double m2 = raw2 - m * m, m3 = raw3 - 3 * m * raw2 + 2 * m * m * m,
                  m4 = raw4 - 4 * m * raw3 + 6 * m * m * raw2 - 3 * m * m * m * m;
     if (!(m2 > 1e-20 * raw2) || !std::isfinite(m4 / (m2 * m2))) return {};
-    HeightShape shape{m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
+    double most = 0;
     for (const Curvature& of : curvature_) {
       const double square = of.second * of.second;
-      if (square > 0 && std::isfinite(square))
-        shape.curvature_kurtosis = std::fmax(shape.curvature_kurtosis.value_or(0), of.fourth * of.count / square);
+      if (square > 0 && std::isfinite(square)) most = std::fmax(most, of.fourth * of.count / square);
     }
+    HeightShape shape{m3 / (m2 * std::sqrt(m2)), m4 / (m2 * m2)};
+    if (most > 0) shape.curvature_kurtosis = most;
     return shape;
   }
 
