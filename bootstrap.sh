@@ -111,13 +111,14 @@ install_on_macos() {
   has_python || brew install python
   CMAKE_ARGS="${CMAKE_ARGS:-} -DBUILD_SHARED_LIBS=ON" # read by the Python build
   export CMAKE_ARGS
-  shared=-DBUILD_SHARED_LIBS=ON
 }
 
 # --- the Python package ---
 
 # Into .venv, with the build's own needs beside it: a build folder that stays makes the second run quick.
-install_package() { # EXTRA
+install_package() { # EXTRA [PIP OPTION...]
+  extra=$1
+  shift
   say "Python package: .venv"
   .venv/bin/python -m pip --version >/dev/null 2>&1 || "$python" -m venv --clear .venv
   .venv/bin/python -c '
@@ -130,7 +131,7 @@ with open("pyproject.toml", "rb") as file:
   tell_progress "$files" &
   teller=$!
   SKBUILD_BUILD_DIR='build/{wheel_tag}' CMAKE_BUILD_PARALLEL_LEVEL=$jobs \
-    .venv/bin/python -m pip install -q --no-build-isolation ".[$1]"
+    .venv/bin/python -m pip install -q --no-build-isolation "$@" ".[$extra]"
   stop_telling
 }
 
@@ -186,11 +187,10 @@ format_check() { find cpp python tests \( -name '*.[ch]pp' -o -name '*.inc' \) -
 
 tests() {
   failed=
-  say "C++ core: build/dev"
-  cmake --preset dev ${shared:+"$shared"}
-  cmake --build --preset dev -j "$jobs"
-  check ctest keep "$scratch/ctest.log" ctest --preset dev -j "$jobs"
-  install_package test
+  # The core is compiled once: the C++ tests link what is installed.
+  install_package test -C cmake.define.ASPERITY_TESTS=ON -C 'build.targets=_core;asperity_fmu;all'
+  built=$(ls -t build/cp*/CMakeInit.txt | head -n 1)
+  check ctest keep "$scratch/ctest.log" ctest --test-dir "${built%/*}" --output-on-failure --label-exclude long -j "$jobs"
   check ruff .venv/bin/ruff check
   check "ruff's layout" .venv/bin/ruff format --check
   check mypy .venv/bin/mypy
@@ -214,6 +214,5 @@ teller=
 trap 'stop_telling; rm -rf "$scratch"' EXIT
 trap 'exit 1' HUP INT TERM
 jobs=$(getconf _NPROCESSORS_ONLN 2>/dev/null || echo 1)
-shared=
 if [ "$(uname)" = Darwin ]; then install_on_macos; else install_packages; fi
 case $verb in demo) demo ;; test) tests ;; esac

@@ -8,7 +8,7 @@
 #   gradients    slopes of mu on two thousand random scenes, against central differences
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each;
 #                with heat those of measured scans
-#   tests        the tests of Python that take too long for every day
+#   tests        the tests that take too long for every day: of Python, and a stranger's project that compiles the library
 #   properties   the property tests on 2000 drawn examples each
 #   isotherms    shift factors of 400 random sets of isotherms
 #   coverage     how often bands on mu hold the truth, 200 of each kind of measured input; errors of fits
@@ -76,7 +76,9 @@ maps() {
     "$python" tests/stability/hot_maps.py
 }
 
-tests() { "$python" -m pytest -q -p no:cacheprovider -m long; }
+tests() {
+  "$python" -m pytest -q -p no:cacheprovider -m long && built release && ctest --preset release --label-regex long
+}
 
 properties() { ASPERITY_HYPOTHESIS=long "$python" -m pytest -q -p no:cacheprovider tests/python/friction/test_properties.py; }
 
