@@ -13,7 +13,6 @@
 #include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/libraries.hpp"
-#include "numerics/shown_range.hpp"
 #include "spectrum/harmonics.hpp"
 
 namespace asperity {

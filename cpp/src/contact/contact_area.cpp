@@ -17,7 +17,6 @@
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/shown_range.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {

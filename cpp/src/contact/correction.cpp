@@ -10,7 +10,6 @@
 #include "contact/conditions.hpp"
 #include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/shown_range.hpp"
 #include "numerics/visit.hpp"
 
 namespace asperity {

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "asperity/dma.hpp"
-#include "dma/master_curve_notes.hpp"
 #include "dma/time_temperature_shift.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"

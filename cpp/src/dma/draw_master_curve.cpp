@@ -9,10 +9,10 @@
 #include <memory>
 #include <optional>
 
-#include "dma/master_spline.hpp"
+#include "dma/time_temperature_shift.hpp"
+#include "numerics/dense.hpp"
 #include "numerics/interpolation.hpp"
 #include "numerics/random.hpp"
-#include "numerics/symmetric_matrix.hpp"
 
 namespace asperity {
 

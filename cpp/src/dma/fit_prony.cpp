@@ -11,7 +11,7 @@
 
 #include "asperity/dma.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/nnls.hpp"
+#include "numerics/dense.hpp"
 
 namespace asperity {
 

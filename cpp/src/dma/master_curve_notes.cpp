@@ -1,11 +1,10 @@
 // Notes of a build of a master curve: small overlaps, shifts that the data do not fix, moduli that ask for different
 // shifts, points off the curve, and the vertical shift that was not taken.
-#include "dma/master_curve_notes.hpp"
-
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "dma/time_temperature_shift.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
 

@@ -1,11 +1,10 @@
 // The spline through isotherms whose shifts are known, its residual, and the share of it that is no noise but misfit
 // between isotherms: a lag-one correlation r of residuals leaves (1 - r) / (1 + r) of the points independent (M. S.
 // Bartlett, J. R. Stat. Soc. 98, 536 (1935)).
-#include "dma/master_spline.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "dma/time_temperature_shift.hpp"
 #include "numerics/roots.hpp"
 
 namespace asperity {

@@ -1,11 +1,11 @@
 // Two isotherms at all distances, by the likelihood of the joint fit with 3 % of noise more and with an offset between
 // the two that is not known: clean data have a minimum a thousandth of a decade wide, which no grid would see. The way
 // through all pairs is A. J. Viterbi's (IEEE Trans. Inf. Theory 13, 260 (1967)), its steps the prior on the rate.
-#include "dma/pair_search.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "dma/time_temperature_shift.hpp"
 
 namespace asperity {
 

@@ -2,10 +2,10 @@
 // A c = B^T y, A = B^T B + sum_j lambda_j d_j d_j^T, d = (-1, 3, -3, 1). Both sums couple four neighbours, so that the
 // factor A = L D L^T, its determinant and the part of the inverse that gradients ask for take a time linear in the
 // knots.
-#include "dma/penalized_spline.hpp"
-
 #include <algorithm>
 #include <cmath>
+
+#include "dma/shift_likelihood.hpp"
 
 namespace asperity {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "asperity/watch.hpp"
-#include "numerics/least_squares.hpp"
+#include "numerics/dense.hpp"
 
 namespace asperity {
 
@@ -29,8 +29,6 @@ constexpr double run_away = 10;  // decades of v0 beyond the points
 // Nodes that are tried, the steps that each takes, and how many of the best then go on.
 constexpr std::size_t many_starts = 32, few_starts = 8;
 constexpr int first_steps = 5, most_steps = 500;
-
-std::span<const double, 9> entries(const Matrix3d& a) { return std::span<const double, 9>(a.data(), 9); }
 
 /// Tukey's biweight: rho with its limit 1, psi(u) / u and psi'(u) up to the factor 6, of u = residual / cut.
 double biweight_rest(double u) { return std::abs(u) < 1 ? 1 - u * u : 0; }
@@ -198,7 +196,7 @@ bool Fit::descend(Vector3d& at, double cut, double& damping) const {
     Matrix3d damped = normal;
     for (Index k = 0; k < 3; ++k)
       damped(k, k) = held_[static_cast<std::size_t>(k)] ? 1 : normal(k, k) * (1 + damping) + 1e-300;
-    const Vector3d step = Matrix3d(inverse(entries(damped)).data()) * gradient;
+    const Vector3d step = inverse(damped) * gradient;
     if (!(total(at + step, cut) < value)) continue;
     at += step;
     damping = std::max(1e-12, damping / 10);
@@ -256,7 +254,7 @@ AdhesionCurve Fit::result(const Vector3d& at, double scale) const {
   Matrix3d normal = j.transpose() * j;
   for (Index k = 0; k < 3; ++k)
     if (held_[static_cast<std::size_t>(k)]) normal(k, k) = 1;
-  const Matrix3d inverted(inverse(entries(normal)).data());
+  const Matrix3d inverted = inverse(normal);
   curve.covariance = (inverted + inverted.transpose()) / 2 * std::pow(cut * correction / mean, 2) * square;
   for (Index k = 0; k < 3; ++k)
     if (held_[static_cast<std::size_t>(k)]) curve.covariance(k, k) = 0;

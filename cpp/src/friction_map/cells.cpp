@@ -1,10 +1,9 @@
 // The cells of a map: a quadtree whose leaves hold bicubic Hermite polynomials; beside a larger neighbour a corner
 // takes the neighbour's values, so that the map has continuous derivatives.
-#include "friction_map/cells.hpp"
-
 #include <algorithm>
 #include <set>
 
+#include "friction_map/format.hpp"
 #include "numerics/interpolation.hpp"
 
 namespace asperity {

@@ -1,10 +1,9 @@
 // Polynomials sum c_ij T_i(x) T_j(z) through the solver's numbers at Chebyshev's points (chebyshev.hpp).
-#include "friction_map/patches.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "friction_map/slices.hpp"
 #include "numerics/chebyshev.hpp"
 
 namespace asperity {

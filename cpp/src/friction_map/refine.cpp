@@ -1,16 +1,15 @@
 // Refinement of a map: cells are halved until ln mu_H and ln A/A0 keep the tolerance on lattices of 5 x 5 points and on
-// random points unseen before, with heat at the nodes of height (T0, or the share of a slanted line, slant.hpp),
+// random points unseen before, with heat at the nodes of height (T0, or the share of a slanted line, class Slant),
 // between them, and at random. The numbers that
 // they are held against, and the derivatives at corners, are those of polynomials through points of the solver
-// (patches.hpp, slices.hpp), whose error is added to the cell's.
-#include "friction_map/refine.hpp"
-
+// (slices.hpp), whose error is added to the cell's.
 #include <algorithm>
 #include <cmath>
 #include <set>
 #include <unordered_map>
 
 #include "asperity/watch.hpp"
+#include "friction_map/format.hpp"
 #include "friction_map/slices.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"

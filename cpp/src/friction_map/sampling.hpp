@@ -1,21 +1,104 @@
-// The coordinates of a friction map, x = ln v and z = ln p - s(x), or slanted ones (slant.hpp), and what is sampled in
-// them.
+// The coordinates of a friction map, x = ln v and z = ln p - s(x), or slanted ones, and what is sampled in them.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "asperity/build_friction_map.hpp"
-#include "friction_map/load_shift.hpp"
-#include "friction_map/slant.hpp"
 #include "numerics/interpolation.hpp"
 
 namespace asperity {
+
+/// Polynomials of one variable on intervals, halved until each keeps a tolerance; the intervals never cross a cut,
+/// where the function has a kink.
+class LoadShift {
+ public:
+  struct Sample {
+    double value, error;
+  };
+  /// 0 everywhere.
+  LoadShift() = default;
+  /// `exact` between the first and the last of the cuts.
+  LoadShift(const std::function<Sample(double z)>& exact, std::span<const double> cuts, double tolerance);
+
+  [[nodiscard]] bool any() const { return !pieces_.empty(); }
+  /// The last interval that begins below z, or the one that ends there.
+  [[nodiscard]] ValueAndSlope operator()(double z) const { return on(pieces_, z); }
+  /// On the side of a cut that a band (from 0) is on.
+  [[nodiscard]] ValueAndSlope operator()(double z, std::size_t band) const {
+    return any() ? on(std::span(pieces_).subspan(bands_[band], bands_[band + 1] - bands_[band]), z) : on(pieces_, z);
+  }
+  /// The largest error that was found.
+  [[nodiscard]] double error() const { return error_; }
+  /// Of z + ln p_T.
+  [[nodiscard]] std::array<double, 2> range() const { return range_; }
+
+ private:
+  static constexpr std::size_t n = 16;
+  struct Piece {
+    double lower, upper;
+    std::array<double, n> power;  // of -1 to 1 over the interval
+    [[nodiscard]] ValueAndSlope operator()(double z) const;
+  };
+  static ValueAndSlope on(std::span<const Piece> pieces, double z);
+  void add(const std::function<Sample(double z)>& exact, double lower, double upper, double tolerance, int depth);
+
+  std::vector<Piece> pieces_;       // in order
+  std::vector<std::size_t> bands_;  // the first piece of each, and their number
+  double error_ = 0;
+  std::array<double, 2> range_{};
+};
+
+/// A measured modulus has a kink at each of its rows, so that mu is rough over w = ln v + ln a_T(T0), at a constant v
+/// over T0 too, and smooth over T0 at a constant w. With ln a_T = a t / (1 + b t), t = T0 - lowest, which all laws are,
+/// ln v and ln a_T are between sides of their own, and on each line of constant w in the box ln a_T goes from `lower`
+/// to `upper`: w and the share of this way are two coordinates between constant sides. Where a line changes the side
+/// that it begins or ends on, the share has a kink over w: there maps are cut.
+class Slant {
+ public:
+  Slant(const std::array<double, 2>& ln_velocity, const std::array<double, 2>& temperature,
+        const TemperatureShift& shift)
+      : x_(ln_velocity), coldest_(temperature[0]), hottest_(temperature[1]) {
+    const ShiftValue first = shift_at(shift, coldest_), last = shift_at(shift, hottest_);
+    const double range = hottest_ - coldest_, whole = std::log(10) * (last.log10_a_T - first.log10_a_T);
+    a_ = std::log(10) * first.slope;
+    b_ = (a_ * range / whole - 1) / range;
+    sides_ = {std::fmin(0, whole), std::fmax(0, whole)};
+  }
+
+  [[nodiscard]] std::array<double, 2> coefficients() const { return {a_, b_}; }
+  /// The sides of ln a_T, 0 one of them.
+  [[nodiscard]] const std::array<double, 2>& log_a_T() const { return sides_; }
+
+  /// w where lines change the sides, and its own sides.
+  [[nodiscard]] std::vector<double> cuts() const {
+    const double least = x_[0] + sides_[0], most = x_[1] + sides_[1];
+    const double way = std::fmin(x_[1] - x_[0], sides_[1] - sides_[0]);
+    // of a box that is as long as wide, the two are one
+    const double between = std::fmax(most - way, (least + way) + 1e-9 * way);
+    return {least, least + way, between, most};
+  }
+
+  struct Point {
+    double ln_velocity, temperature;
+  };
+  [[nodiscard]] Point at(double w, double share) const {
+    const double lower = std::fmax(sides_[0], w - x_[1]), upper = std::fmin(sides_[1], w - x_[0]);
+    const double log_a_T = lower + share * (upper - lower);
+    return {w - log_a_T, std::clamp(coldest_ + log_a_T / (a_ - b_ * log_a_T), coldest_, hottest_)};
+  }
+
+ private:
+  std::array<double, 2> x_, sides_{};
+  double coldest_, hottest_, a_ = 0, b_ = 0;
+};
 
 struct MapPlace {
   double x, z;

@@ -1,13 +1,12 @@
 // ln s0 on a grid; between columns Steffen's cubics, which do not overshoot where s0 jumps: mu over the distance need
 // not fall steadily, and where the friction with and without heat cross, s0 says little and matters as little. About
 // these places s0 is steep, so that the grid is halved until they matter no more, and s0 computed there alone.
-#include "friction_map/sliding_table.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "friction_map/format.hpp"
 #include "numerics/interpolation.hpp"
 #include "numerics/parallel_for.hpp"
 #include "numerics/random.hpp"

@@ -1,13 +1,70 @@
-// The temperature profile that keeps itself up.
+// The temperature profile that keeps itself up, and those that a part of the heat would keep up, from the coldest on.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <cmath>
 #include <optional>
+#include <utility>
+#include <vector>
 
-#include "heat/march.hpp"
+#include "heat/flash_map.hpp"
 
 namespace asperity {
+
+/// A place on the curve theta = eps F(theta), at the length s of the way to it in x: ln theta at the temperature
+/// points, and ln kappa behind them with PartialContact.
+struct Place {
+  double s, eps;
+  Eigen::VectorXd x;
+  Eigen::Index points;
+  [[nodiscard]] Eigen::VectorXd theta() const { return x.head(points).array().exp(); }
+  /// theta(q1) [K].
+  [[nodiscard]] double tau() const { return std::exp(x[points - 1]); }
+};
+
+/// Goes along that curve, which begins at theta = 0 with eps = 0 and leaves all bounds with both. Its crossings of 1
+/// are the solutions; one at which eps rises is stable.
+class March {
+ public:
+  /// `cold_rise` is F(0).
+  March(FlashMap& map, double background, const Eigen::VectorXd& cold_rise);
+  /// Neighbouring places on both sides of eps = 1, in the order of the curve, up to twice the highest temperature.
+  std::vector<std::pair<Place, Place>> crossings();
+  /// The profile between two of them where ln eps is within `near` of 0.
+  Eigen::VectorXd between(Place low, Place high, double near);
+  /// The profile at eps = 1 between them, also where eps is flat, so that Newton's steps in the profile do not end.
+  std::optional<Eigen::VectorXd> root(Place low, Place high);
+  /// Whether a profile lies between two places, as far as these are known.
+  [[nodiscard]] static bool is_between(const Place& low, const Place& high, const Eigen::VectorXd& theta);
+
+ private:
+  std::optional<Place> next();
+  void turn();
+  void pass(const Eigen::VectorXd& x);
+  Eigen::MatrixXd slopes(const Eigen::VectorXd& x);
+  [[nodiscard]] Eigen::MatrixXd bordered(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& direction) const;
+  Eigen::VectorXd settled(const Place& place);
+  void divide_flat(std::vector<Place>& places);
+  std::optional<Place> beyond_turn(Place low, Place middle, Place high);
+  std::optional<Place> solve_between(const Place& low, const Place& high, double share);
+  std::optional<Place> solve(const Eigen::VectorXd& start, const Eigen::VectorXd& direction, double s, double tolerance,
+                             const Eigen::MatrixXd* nearby);
+
+  FlashMap& map_;
+  double background_, highest_;
+  Place at_;
+  Eigen::MatrixXd slopes_;  // at that place, and the direction of the way there, of the length 1
+  Eigen::VectorXd direction_;
+  double stride_ = 0;             // the last one
+  std::optional<bool> negative_;  // the determinant of the bordered slopes along the curve
+};
+
+/// 1 - factor dF/dtheta.
+Eigen::MatrixXd identity_less(const Eigen::MatrixXd& jacobian, double factor = 1);
+
+/// Rubber does not stand more [K].
+inline constexpr double highest_rubber_temperature = 700;
 
 struct FixedPoint {
   Eigen::VectorXd theta;                        // at the grid's temperature points [K]

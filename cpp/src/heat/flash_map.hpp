@@ -12,10 +12,24 @@
 #include "contact/theory/theory.hpp"
 #include "heat/angular_slopes.hpp"
 #include "heat/heat_grid.hpp"
-#include "heat/hot_shift.hpp"
 #include "heat/kernel.hpp"
 
 namespace asperity {
+
+/// a_T and its slope at a temperature [K], held where what is known of it ends: while a temperature is searched for, it
+/// may go beyond. Whether the result lies inside is for the caller to check.
+ShiftValue held_shift(const TemperatureShift& shift, double temperature);
+
+/// p_T with the slope of its logarithm over the temperature [1/K].
+struct HotShift {
+  Shift shift;
+  double slope = 0;
+};
+
+/// That of corrections by Greenwood-Williamson's model follows |E(q0 v a_T)| with the a_T of what q0 feels; those of
+/// the others stay.
+HotShift hot_shift(const Correction& correction, const Spectrum& spectrum, const Rubber& rubber,
+                   const ShiftValue& value, double poisson_ratio, double pressure, double velocity);
 
 /// What all points of a computation share.
 struct HeatScene {
@@ -164,5 +178,9 @@ class FlashMap {
   Eigen::MatrixXd jacobian_;
   PartSlopes part_slopes_;
 };
+
+/// The distance [m] from rest, at the point's velocity throughout, at which mu has come from that without heat to
+/// within 1 / e of that in the end; of the rise at q1 where mu does not change. To about 1 % of the contact's diameter.
+double sliding_length(const HeatScene& scene, const HeatPoint& point);
 
 }  // namespace asperity

@@ -2,14 +2,13 @@
 //   theta(q, s) = int_0^s du / v h(u / 2 R) sum_q' K(q, q', u / v) f(q', s - u),
 // K = a (b erfcx(a l) - a erfcx(b l)) / (b^2 - a^2) with a = 2 q, b = 2 q', l = sqrt(D u / v), h the overlap of two
 // discs or 1 (box). f is linear between equal steps of s, and its last value follows from the one before.
-#include "heat/history.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "asperity/watch.hpp"
 #include "contact/correction.hpp"
+#include "heat/flash_map.hpp"
 #include "numerics/gauss_legendre.hpp"
 
 namespace asperity {

@@ -1,11 +1,10 @@
 // p_T2 of Eqs 16 to 21 depends on the temperature by E* = |E(q0 v a_T(T))| / (1 - nu^2) alone.
-#include "heat/hot_shift.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "contact/correction.hpp"
+#include "heat/flash_map.hpp"
 
 namespace asperity {
 

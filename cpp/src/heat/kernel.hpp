@@ -1,13 +1,25 @@
-// The temperature that one roughness feels from the heat of another, at one velocity.
+// The temperature that one roughness feels from the heat of another, at one velocity, and the two functions of one
+// variable that every heat kernel is made of.
 #pragma once
 
 #include <Eigen/Core>
 #include <span>
 #include <vector>
 
-#include "heat/universal.hpp"
+#include "asperity/heating.hpp"
 
 namespace asperity {
+
+/// N(x) = int_0^1 h(w) erfcx(x sqrt w) dw and Q = N - x dN/dx, both positive.
+struct HeatFunctions {
+  double n, q;
+};
+
+/// At x >= 0, to about 1e-15; h is the overlap of two discs, 1 - (2 / pi) (w sqrt(1 - w^2) + asin w), or 1 for the box.
+HeatFunctions heat_functions(Residence residence, double x);
+
+/// exp(x^2) erfc(x) at x >= 0.
+double scaled_erfc(double x);
 
 /// With x = 2 q l, y = 2 q' l, l = sqrt(D t), t the longest residence: g = t x^2 y (N(x) / x - N(y) / y) / (y^2 - x^2).
 class HeatKernel {

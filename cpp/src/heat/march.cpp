@@ -3,14 +3,13 @@
 // its parameter: eps turns about where there are several states, and theta(q1) where a strong line of the roughness
 // runs away by itself, which heats the long waves and leaves the short ones colder. H. B. Keller, in: Applications of
 // Bifurcation Theory, 359 (1977).
-#include "heat/march.hpp"
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "asperity/watch.hpp"
+#include "heat/fixed_point.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {

@@ -1,13 +1,12 @@
 // eps = tau / F(tau) with tau from 0 to twice the highest rise that rubber stands. F is that of the march, but for the
 // profile. B. N. J. Persson, J. Phys.: Condens. Matter 18, 7789 (2006).
-#include "heat/uniform_heat.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "asperity/watch.hpp"
-#include "heat/march.hpp"
+#include "heat/fixed_point.hpp"
+#include "heat/flash_solver.hpp"
 
 namespace asperity {
 

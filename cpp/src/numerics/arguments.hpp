@@ -106,4 +106,21 @@ inline void require_rtol(double rtol) {
   if (!(rtol >= 1e-12 && rtol <= 0.1)) refuse("rtol", rtol, "in [1e-12, 0.1]");
 }
 
+/// A range of positive numbers as a message shows it. Its ends are rounded inwards: whoever types them is inside of it.
+class ShownRange {
+ public:
+  ShownRange(double lowest, double highest);
+  [[nodiscard]] Phrase lowest() const;
+  [[nodiscard]] Phrase highest() const;
+  /// "[lowest, highest]"
+  [[nodiscard]] Sentence text() const;
+  /// A number with six digits, or as many more as show on which side of the range it lies.
+  [[nodiscard]] Phrase value(double x) const;
+
+ private:
+  [[nodiscard]] int side(double x) const;
+  double lowest_, highest_;
+  int digits_;
+};
+
 }  // namespace asperity

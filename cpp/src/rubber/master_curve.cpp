@@ -8,7 +8,6 @@
 #include "asperity/rubber.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
-#include "numerics/shown_range.hpp"
 #include "rubber/angular_harmonics.hpp"
 #include "rubber/angular_interpolant.hpp"
 

@@ -9,7 +9,6 @@
 #include "asperity/rubber.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/kernels.hpp"
-#include "numerics/shown_range.hpp"
 #include "rubber/angular_harmonics.hpp"
 
 namespace asperity {

@@ -1,8 +1,6 @@
 // Rubber that slides at v along s answers a pressure p exp(i q x) with u = 2 (1 - nu^2) p / (|q| conj E(v q.s)). Modes
 // across the way, q.s = 0, would stay relaxed at any speed, though they stand for a cell of wavevectors, 2 pi / L wide:
 // they get the mean of 1 / E over it, and dissipate as the cell does.
-#include "sliding/compliance.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "numerics/arguments.hpp"
 #include "numerics/gauss_legendre.hpp"
 #include "rubber/unlimited_rubber.hpp"
+#include "sliding/contact_solver.hpp"
 
 namespace asperity {
 

@@ -1,4 +1,4 @@
-// The contact of one map on one grid, in units without dimensions.
+// The contact of one map on one grid, in units without dimensions, and the compliance of sliding rubber for it.
 #pragma once
 
 #include <chrono>
@@ -7,6 +7,7 @@
 #include <functional>
 #include <vector>
 
+#include "asperity/rubber.hpp"
 #include "asperity/sliding.hpp"
 #include "numerics/fft.hpp"
 
@@ -42,5 +43,32 @@ ContactSolution solve_contact(const ContactProblem& problem, std::vector<double>
 
 /// Where the pressure that makes contact everywhere has no tension, this pressure; otherwise empty.
 std::vector<double> complete_contact(const ContactProblem& problem);
+
+/// E of the waves of a map.
+struct WaveModulus {
+  /// At a wavenumber [1/m] and an angular frequency [rad/s], 0 or more.
+  std::function<std::complex<double>(double wavenumber, double angular_frequency)> at;
+  bool by_wavenumber = false;  // whether it depends on the wavenumber
+};
+
+/// The modulus, beyond the frequencies that are known too: below them the storage modulus is constant and the loss
+/// proportional to frequency, as in the angular integrals; above them both keep their last values.
+WaveModulus continued_modulus(const Rubber& rubber);
+
+/// A grid of points on the sides of a map [m].
+struct Sides {
+  Grid points;  // ny, nx
+  double y, x;
+};
+
+/// Of the modes k_y, k_x of a real grid, ny x (nx / 2 + 1).
+struct Compliance {
+  std::vector<std::complex<double>> modes;  // 1 / conj E(v q.s) [1/Pa]
+  std::vector<double> loss;                 // q.s Im 1 / conj E(v q.s) [1/(m Pa)]
+};
+
+/// At `velocity` [m/s] in the direction s, an angle from x towards y [rad]. A mode stands for a cell of wavevectors:
+/// where some of those run along the way and others against it, it has their mean.
+Compliance compliance(const WaveModulus& modulus, double velocity, double direction, const Sides& sides);
 
 }  // namespace asperity

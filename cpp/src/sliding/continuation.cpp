@@ -2,8 +2,6 @@
 // weights are a sine and a cosine, whose squares add up to 1: waves that do not know of each other keep their variance,
 // but skewed heights become Gaussian, and worn surfaces get peaks. Blended, over two of the shortest waves, weights add
 // up to 1: heights stay between those that were measured.
-#include "sliding/continuation.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,6 +11,7 @@
 #include "asperity/spectrum.hpp"
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
+#include "sliding/slide_period.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/segments.hpp"
 

@@ -9,7 +9,9 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 
+#include "asperity/contact_progress.hpp"
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "spectrum/segments.hpp"
@@ -227,6 +229,33 @@ ScanContact ScanContact::with_pressure_lattice() const {
   ScanContact result = *this;
   result.pressure_lattice_ = true;
   return result;
+}
+
+namespace {
+
+thread_local ContactProgress* innermost = nullptr;
+
+}  // namespace
+
+ContactProgress::ContactProgress(const ScanContact& scan, Tell progress)
+    : scan_(scan), tell_(std::move(progress)), outer_(std::exchange(innermost, this)) {}
+
+ContactProgress::~ContactProgress() { innermost = outer_; }
+
+ContactProgress* ContactProgress::of(const Scan& scan) noexcept {
+  ContactProgress* at = innermost;
+  while (at != nullptr && &at->scan_.scan() != &scan) at = at->outer_;
+  return at;
+}
+
+void ContactProgress::need(std::size_t contacts) {
+  needed_ += contacts;
+  tell_(solved_, needed_);
+}
+
+void ContactProgress::solved(std::size_t contacts) {
+  solved_ += contacts;
+  tell_(solved_, needed_);
 }
 
 }  // namespace asperity

@@ -6,7 +6,7 @@
 #include "asperity/sliding.hpp"
 #include "asperity/spectrum.hpp"
 #include "numerics/fft.hpp"
-#include "sliding/continuation.hpp"
+#include "sliding/slide_period.hpp"
 
 namespace asperity {
 

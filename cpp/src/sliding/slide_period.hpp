@@ -1,12 +1,23 @@
-// The contact of one period of a surface that slides, for a modulus of any kind.
+// A map as one period of a surface, and its contact while it slides, for a modulus of any kind.
 #pragma once
 
+#include <limits>
+#include <vector>
+
 #include "asperity/sliding.hpp"
-#include "sliding/compliance.hpp"
 #include "sliding/contact_solver.hpp"
-#include "sliding/continuation.hpp"
 
 namespace asperity {
+
+struct Period {
+  HeightMap::Shape shape;
+  std::vector<double> heights;  // [m], of mean 0
+  double rms_height;            // [m]
+};
+
+/// `shortest` [1/m]: waves beyond it do not count where the map is blended.
+Period one_period(const HeightMap& map, Continuation continuation,
+                  double shortest = std::numeric_limits<double>::infinity());
 
 /// How a period slides.
 struct Way {

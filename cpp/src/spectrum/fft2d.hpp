@@ -12,7 +12,7 @@
 #include "numerics/fft.hpp"
 #include "numerics/parallel_for.hpp"
 #include "numerics/simd.hpp"
-#include "spectrum/preparation.hpp"
+#include "spectrum/window.hpp"
 #include "surface/rows.hpp"
 
 namespace asperity {

@@ -4,21 +4,26 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <string>
-#include <utility>
 
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/least_squares.hpp"
+#include "numerics/dense.hpp"
 #include "numerics/roots.hpp"
-#include "numerics/sum.hpp"
 
 namespace asperity {
 
 using std::numbers::pi;
 
 namespace {
+
+/// term(0) + ... + term(n - 1).
+template <class Term>
+double sum(std::size_t n, Term term) {
+  double total = 0;
+  for (std::size_t i = 0; i < n; ++i) total += term(i);
+  return total;
+}
 
 /// Rows that are fitted: x = ln q, y = ln C, w the weights, of sum 1; their places in the spectrum and what that knows
 /// of them.
@@ -130,45 +135,38 @@ std::array<double, 2> slope_below(const Rows& rows, double x_r) {
 struct Model {
   Rows rows;
   Broken fit;
-  std::size_t parameters;
-  std::vector<double> covariance;
+  Eigen::MatrixXd covariance;
   double scatter;  // of a row of weight 1
   double freedom;  // what the fit takes out of the rows, in rows: more than its parameters where rows are alike
 
-  Model(Rows of, double x_r, std::size_t parameters);
+  Model(Rows of, double x_r, Eigen::Index parameters);
   [[nodiscard]] double probability(double x0) const;
 };
 
 /// Rows have the covariance V = s^2 W^-1/2 R W^-1/2, W of trace 1 and R their correlation: with A = (J^T W J)^-1 that
 /// of the parameters is A J^T W V W J A. What is left has the mean s^2 (n - t), t the trace of A J^T W^1/2 R W^1/2 J.
-Model::Model(Rows of, double x_r, std::size_t count) : rows(std::move(of)), fit(rows, x_r), parameters(count) {
-  const std::size_t n = rows.size();
-  std::vector<double> jacobian(n * parameters, 1.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    jacobian[n + i] = std::max(rows.x[i] - fit.x_r, 0.0);
-    if (parameters == 3) jacobian[2 * n + i] = rows.x[i] > fit.x_r ? -fit.slope : 0;
+Model::Model(Rows of, double x_r, Eigen::Index parameters) : rows(std::move(of)), fit(rows, x_r) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Ones(n, parameters);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double above = rows.x[static_cast<std::size_t>(i)] - fit.x_r;
+    jacobian(i, 1) = std::max(above, 0.0);
+    if (parameters == 3) jacobian(i, 2) = above > 0 ? -fit.slope : 0;
   }
-  const std::vector<double> inverse = inverse_normal(jacobian, rows.w);
-  const std::size_t size = parameters * parameters;
-  std::vector<double> inner(size);  // J^T W^1/2 R W^1/2 J
-  const auto add_pair = [&](std::size_t i, std::size_t j, double correlation) {
-    for (std::size_t k = 0; k < size; ++k)
-      inner[k] += correlation * std::sqrt(rows.w[i] * rows.w[j]) * jacobian[k % parameters * n + i] *
-                  jacobian[k / parameters * n + j];
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    add_pair(i, i, 1);
-    for (std::size_t j = i + 1; j < n && rows.place[j] - rows.place[i] <= rows.quality.lags(); ++j)
-      for (const auto& [a, b] : {std::pair{i, j}, std::pair{j, i}})
-        add_pair(a, b, rows.quality.correlation_of(rows.place[i], rows.place[j]));
-  }
-  freedom = std::inner_product(inverse.begin(), inverse.end(), inner.begin(), 0.0);  // both symmetric
+  const auto w = Eigen::VectorXd::Map(rows.w.data(), n);
+  const Eigen::MatrixXd inverse = inverse_normal(jacobian, w), scaled = w.cwiseSqrt().asDiagonal() * jacobian;
+  Eigen::MatrixXd correlated = scaled;  // R W^1/2 J
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = i + 1; j < rows.size() && rows.place[j] - rows.place[i] <= rows.quality.lags(); ++j) {
+      const double correlation = rows.quality.correlation_of(rows.place[i], rows.place[j]);
+      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+      correlated.row(a) += correlation * scaled.row(b);
+      correlated.row(b) += correlation * scaled.row(a);
+    }
+  const Eigen::MatrixXd inner = scaled.transpose() * correlated;
+  freedom = inverse.cwiseProduct(inner).sum();  // both symmetric
   scatter = fit.sum_of_squares / (static_cast<double>(n) - freedom);
-  covariance.resize(size);
-  for (std::size_t k = 0; k < size; ++k)
-    for (std::size_t l = 0; l < size; ++l)
-      covariance[k] += scatter * inverse[k % parameters * parameters + l % parameters] * inner[l] *
-                       inverse[l / parameters * parameters + k / parameters];
+  covariance = scatter * inverse * inner * inverse;
 }
 
 /// How probable the roll-off is against none above x0, by Schwarz's criterion for one parameter more (Ann. Stat. 6, 461
@@ -197,8 +195,8 @@ std::optional<Model> rolled_off(Rows rows, double x0) {
 /// Rms height of the band [x0, x1], H and roll-off of a fit, and their covariance T C T^T, T their derivatives after
 /// the parameters of its model.
 struct Estimate {
-  std::array<double, 3> value;
-  std::array<std::array<double, 3>, 3> covariance{};
+  Eigen::Vector3d value;
+  Eigen::Matrix3d covariance;
 
   Estimate(const Model& model, const Broken& fit, double x0, double x1) {
     const auto log_rms = [&](double slope, double x_r) {
@@ -207,25 +205,16 @@ struct Estimate {
     constexpr double h = 1e-5;
     const double rms = std::exp(log_rms(0, 0)), rolloff = std::exp(fit.x_r);
     value = {rms, -fit.slope / 2 - 1, rolloff};
-    const std::array<std::array<double, 3>, 3> after = {
-        {{rms / 2, rms * (log_rms(h, 0) - log_rms(-h, 0)) / (2 * h), rms * (log_rms(0, h) - log_rms(0, -h)) / (2 * h)},
-         {0, -0.5, 0},
-         {0, 0, rolloff}}};
-    const std::size_t n = model.parameters;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        for (std::size_t k = 0; k < n; ++k)
-          for (std::size_t l = 0; l < n; ++l)
-            covariance[i][j] += after[i][k] * model.covariance[n * l + k] * after[j][l];
+    Eigen::Matrix3d after;
+    after << rms / 2, rms * (log_rms(h, 0) - log_rms(-h, 0)) / (2 * h),
+        rms * (log_rms(0, h) - log_rms(0, -h)) / (2 * h), 0, -0.5, 0, 0, 0, rolloff;
+    covariance = congruence(after.leftCols(model.covariance.cols()), model.covariance);
   }
 
   /// The covariance about this estimate where another one has the probability `share`.
   void add(const Estimate& other, double share) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) {
-        const double apart = (other.value[i] - value[i]) * (other.value[j] - value[j]);
-        covariance[i][j] += share * (other.covariance[i][j] + apart - covariance[i][j]);
-      }
+    const Eigen::Vector3d apart = other.value - value;
+    covariance += share * (other.covariance + apart * apart.transpose() - covariance);
   }
 };
 
@@ -272,7 +261,7 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
   const Model& likelier = broken ? *rolled : line;
   Broken fit = likelier.fit;
   double hurst = -fit.slope / 2 - 1;
-  if (hurst > 1 && hurst - 1 < 3 * std::sqrt(Estimate(likelier, fit, x0, x1).covariance[1][1])) {
+  if (hurst > 1 && hurst - 1 < 3 * std::sqrt(Estimate(likelier, fit, x0, x1).covariance(1, 1))) {
     fit = Broken(likelier.rows, fit.x_r, -4);
     hurst = 1;
   }
@@ -288,13 +277,13 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
   }
   SelfAffineFit result{
       {.rms_height = estimate.value[0], .hurst = hurst, .q0 = q[reliable.front()], .q1 = q[reliable.back()]},
-      estimate.covariance,
+      {},
       std::sqrt(fit.sum_of_squares),
       likelier.rows.size()};
-  if (broken)
-    result.spectrum.rolloff = estimate.value[2];
-  else
-    for (std::size_t i = 0; i < 3; ++i) result.covariance[i][2] = result.covariance[2][i] = 0;
+  if (broken) result.spectrum.rolloff = estimate.value[2];
+  for (std::size_t i = 0; i < (broken ? 3 : 2); ++i)
+    for (std::size_t j = 0; j < (broken ? 3 : 2); ++j)
+      result.covariance[i][j] = estimate.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
   return result;
 }
 

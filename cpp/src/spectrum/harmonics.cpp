@@ -9,7 +9,7 @@
 #include "numerics/arguments.hpp"
 #include "numerics/gauss_legendre.hpp"
 #include "spectrum/last_law.hpp"
-#include "spectrum/self_affine.hpp"
+#include "spectrum/segments.hpp"
 
 namespace asperity {
 

@@ -12,7 +12,6 @@
 #include "numerics/arguments.hpp"
 #include "numerics/fft.hpp"
 #include "spectrum/height_moments.hpp"
-#include "spectrum/preparation.hpp"
 #include "spectrum/window.hpp"
 #include "surface/rows.hpp"
 

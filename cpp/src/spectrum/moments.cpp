@@ -10,11 +10,9 @@
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/roots.hpp"
-#include "numerics/shown_range.hpp"
 #include "numerics/visit.hpp"
 #include "spectrum/harmonics.hpp"
 #include "spectrum/segments.hpp"
-#include "spectrum/self_affine.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {

@@ -12,9 +12,7 @@
 #include "numerics/simd.hpp"
 #include "spectrum/fft2d.hpp"
 #include "spectrum/height_moments.hpp"
-#include "spectrum/preparation.hpp"
-#include "spectrum/ring_covariance.hpp"
-#include "spectrum/tabulated.hpp"
+#include "spectrum/segments.hpp"
 #include "spectrum/window.hpp"
 #include "surface/rows.hpp"
 

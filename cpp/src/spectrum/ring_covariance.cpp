@@ -5,8 +5,6 @@
 // rings outwards for a share max(0, 1 - |m - j cos|) of the places in a ring, in the mean over its directions. Of two
 // tiles of a map that overlap, W is the transform of the product of their windows where they lie (P. D. Welch, IEEE
 // Trans. Audio Electroacoust. 15, 70 (1967)).
-#include "spectrum/ring_covariance.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>

@@ -1,6 +1,7 @@
-// A spectrum as the pieces on which it is one power law or one straight line.
+// A spectrum as the pieces on which it is one power law or one straight line, and its changes row by row.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,5 +34,18 @@ double rms_slope_of(std::span<const Segment> surface);
 
 /// Nayak's parameter of the surface up to `wavenumber`; 1.5, its least, where there is no roughness.
 double nayak_parameter(std::span<const Segment> surface, double wavenumber);
+
+/// Without q1 the rows beyond the band stay.
+TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, std::optional<double> q1);
+TabulatedSpectrum scaled_table(const TabulatedSpectrum& table, double factor);
+
+/// int_0^L exp(e x) dx, for any e including 0.
+double exponential_integral(double e, double length);
+
+/// The slope of ln C in ln q above the roll-off.
+double fall(const SelfAffineSpectrum& s);
+
+/// C_r, the density at the roll-off (at q0 where there is none) [m^4].
+double density_at_rolloff(const SelfAffineSpectrum& s);
 
 }  // namespace asperity

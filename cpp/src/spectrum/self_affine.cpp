@@ -1,16 +1,13 @@
 // A self-affine spectrum, C = C_r (q / q_r)^(-2 (H + 1)) above the roll-off q_r and C_r below it, with C_r by the rms
 // height, h_rms^2 = 2 pi int q C dq; and the changes of band and scale that every spectrum has in common.
 // The article's Eq. 28; B. N. J. Persson et al., J. Phys.: Condens. Matter 17, R1 (2005).
-#include "spectrum/self_affine.hpp"
-
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "numerics/arguments.hpp"
-#include "numerics/shown_range.hpp"
 #include "spectrum/harmonics.hpp"
-#include "spectrum/tabulated.hpp"
+#include "spectrum/segments.hpp"
 
 namespace asperity {
 

@@ -1,13 +1,17 @@
-// Windows that bring a scan to zero at its ends, their effect on the statistics, and the rows that they leave reliable.
+// The preparation of a map for its transform: windows that bring it to zero at its ends, their effect on the statistics,
+// the rows that they leave reliable, the trend, and the factors that make |sum|^2 a density.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "asperity/spectrum.hpp"
+#include "surface/detrend.hpp"
 
 namespace asperity {
 
@@ -80,5 +84,33 @@ struct Reliability {
     return static_cast<std::uint8_t>(bits);
   }
 };
+
+struct Preparation {
+  std::vector<double> wy, wx;  // window weights
+  std::optional<Trend> trend;  // taken out
+  /// Eqs 26-27 with n = nx ny points: C = A / ((2 pi)^2 n^2) |sum|^2, over the window's mean square.
+  double scale;
+  std::vector<double> ring_covariances;  // of rings 0, 1, ... apart, as ring_covariances() gives
+};
+
+/// Throws where the map has drop-outs.
+void require_filled(const HeightMap& map);
+
+/// Throws where the map has drop-outs or no two-dimensional spectrum.
+void require_plane(const HeightMap& map);
+
+/// Throws as require_plane does.
+Preparation prepare(const HeightMap& map, Window window, std::optional<Detrend> detrend, unsigned threads);
+
+/// Covariances of ring means, times n / 2 over the squares of the densities, of rings 0, 1, ... apart, as far as they
+/// are worth telling; `step` is the distance of neighbouring modes along either side in units of the width of a ring.
+/// With a `shift`, of the means of two maps that lie so many points apart on one surface.
+std::vector<double> ring_covariances(const std::vector<double>& window_y, const std::vector<double>& window_x,
+                                     std::array<double, 2> step, std::array<std::size_t, 2> shift = {});
+
+/// |W(j)|^2 of w(x) w(x + shift), over the square of the sum of w^2, for j = 0, 1, ... as far as it is worth telling:
+/// the covariance of |h|^2 of two modes, j apart, of profiles that lie `shift` apart, over the product of their
+/// densities.
+std::vector<double> mode_covariances(const std::vector<double>& window, std::size_t shift = 0);
 
 }  // namespace asperity

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "asperity/watch.hpp"
-#include "numerics/least_squares.hpp"
+#include "numerics/dense.hpp"
 #include "numerics/parallel_for.hpp"
 #include "numerics/simd.hpp"
 #include "surface/rows.hpp"
@@ -14,7 +14,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t terms(Detrend order) { return order == Detrend::offset ? 1 : order == Detrend::plane ? 3 : 6; }
+constexpr Eigen::Index terms(Detrend order) { return order == Detrend::offset ? 1 : order == Detrend::plane ? 3 : 6; }
 
 /// n coordinates from -1 to 1.
 std::vector<double> coordinates(std::size_t n) {
@@ -70,25 +70,20 @@ RowSums measured_sums(const T* row, const std::vector<double>& u, double anchor)
   return sums;
 }
 
-/// Normal equations, the matrix by columns.
 struct Normal {
-  std::vector<double> matrix, right;
-  explicit Normal(std::size_t m) : matrix(m * m), right(m) {}
+  Eigen::MatrixXd matrix;
+  Eigen::VectorXd right;
+  explicit Normal(Eigen::Index m) : matrix(Eigen::MatrixXd::Zero(m, m)), right(Eigen::VectorXd::Zero(m)) {}
 
   void add(const RowSums& sums, double v) {
     // terms 1, u, v, u^2, u v, v^2 as powers of u times powers of v
     constexpr int power_u[6] = {0, 1, 0, 2, 1, 0};
     const double power_v[6] = {1, 1, v, 1, v, v * v};
-    const std::size_t m = right.size();
-    for (std::size_t i = 0; i < m; ++i) {
+    for (Eigen::Index i = 0; i < right.size(); ++i) {
       right[i] += power_v[i] * sums.height[power_u[i]];
-      for (std::size_t j = 0; j < m; ++j)
-        matrix[m * j + i] += power_v[i] * power_v[j] * sums.power[power_u[i] + power_u[j]];
+      for (Eigen::Index j = 0; j < right.size(); ++j)
+        matrix(i, j) += power_v[i] * power_v[j] * sums.power[power_u[i] + power_u[j]];
     }
-  }
-  void add(const Normal& other) {
-    for (std::size_t i = 0; i < matrix.size(); ++i) matrix[i] += other.matrix[i];
-    for (std::size_t i = 0; i < right.size(); ++i) right[i] += other.right[i];
   }
 };
 
@@ -130,7 +125,10 @@ Trend::Trend(const HeightMap& map, Detrend order, unsigned threads)
       },
       map.data());
   Normal& total = contributions[0];
-  for (unsigned part = 1; part < threads; ++part) total.add(contributions[part]);
+  for (unsigned part = 1; part < threads; ++part) {
+    total.matrix += contributions[part].matrix;
+    total.right += contributions[part].right;
+  }
   // Rank-revealing: on one row, or one column, terms that it cannot tell apart are shared, not invented.
   std::ranges::copy(shortest_solution(total.matrix, total.right), coefficient_.begin());
 }

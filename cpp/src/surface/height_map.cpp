@@ -20,6 +20,20 @@ void require_size(std::size_t size, HeightMap::Shape shape) {
                        "shape = " + std::to_string(shape[0]) + " x " + std::to_string(shape[1]));
 }
 
+/// Of numbers that were measured.
+struct MeanSquare {
+  double sum = 0, count = 0;
+  void add(double value) {
+    if (std::isnan(value)) return;
+    sum += value * value;
+    ++count;
+  }
+  /// By central differences.
+  void add_slopes(const std::vector<double>& row, double step) {
+    for (std::size_t x = 1; x + 1 < row.size(); ++x) add((row[x + 1] - row[x - 1]) / (2 * step));
+  }
+};
+
 /// Owns a vector and points at its numbers. A vector's buffer stays where it is when the vector is moved.
 template <class T>
 HeightMap owning(std::vector<T> heights, HeightMap::Shape shape, HeightMap::PixelSize pixel_size) {
@@ -134,32 +148,21 @@ double HeightMap::rms_slope() const {
   std::vector<double> before(nx), here(nx), after(nx);
   read_row(0, here.data());
   read_row(1, after.data());
-  double sum_x = 0, sum_y = 0, count_x = 0, count_y = 0;
-  const auto across = [&](const std::vector<double>& row) {
-    for (std::size_t x = 1; x + 1 < nx; ++x)
-      if (const double slope = (row[x + 1] - row[x - 1]) / (2 * dx); !std::isnan(slope)) {
-        sum_x += slope * slope;
-        ++count_x;
-      }
-  };
-  across(here);
+  MeanSquare in_x, in_y;
+  in_x.add_slopes(here, dx);
   for (std::size_t y = 1; y + 1 < ny; ++y) {
     heed();
     std::swap(before, here);
     std::swap(here, after);
     read_row(y + 1, after.data());
-    across(here);
-    for (std::size_t x = 0; x < nx; ++x)
-      if (const double slope = (after[x] - before[x]) / (2 * dy); !std::isnan(slope)) {
-        sum_y += slope * slope;
-        ++count_y;
-      }
+    in_x.add_slopes(here, dx);
+    for (std::size_t x = 0; x < nx; ++x) in_y.add((after[x] - before[x]) / (2 * dy));
   }
-  across(after);
-  if (count_x == 0 || count_y == 0)
+  in_x.add_slopes(after, dx);
+  if (in_x.count == 0 || in_y.count == 0)
     throw InvalidInput(argument("heights") +
                        ": no point has both neighbours measured; call fill_dropouts() before a slope");
-  return std::sqrt(sum_x / count_x + sum_y / count_y);
+  return std::sqrt(in_x.sum / in_x.count + in_y.sum / in_y.count);
 }
 
 HeightMap HeightMap::detrend(Detrend order) const {
@@ -183,6 +186,43 @@ double first_height(const HeightMap& map) {
       if (!std::isnan(z)) return z;
   }
   return 0;  // not reached: a map has at least one measured point
+}
+
+// A line of heights, which is a map of one row.
+
+namespace {
+
+template <class T>
+HeightMap one_row(std::vector<T> heights, double spacing) {
+  const std::size_t size = heights.size();
+  return {std::move(heights), {1, size}, {spacing, spacing}};
+}
+
+}  // namespace
+
+LineScan::LineScan(HeightMap row) : row_(std::move(row)) {}
+LineScan::LineScan(std::vector<double> heights, double spacing) : row_(one_row(std::move(heights), spacing)) {}
+LineScan::LineScan(std::vector<float> heights, double spacing) : row_(one_row(std::move(heights), spacing)) {}
+LineScan::LineScan(HeightMap::Data data, std::ptrdiff_t stride, std::shared_ptr<const void> owner, std::size_t size,
+                   double spacing)
+    : row_(data, {0, stride}, std::move(owner), {1, size}, {spacing, spacing}) {}
+
+double LineScan::rms_slope() const {
+  std::vector<double> z(size());
+  row_.read_row(0, z.data());
+  MeanSquare slopes;
+  slopes.add_slopes(z, spacing());
+  if (slopes.count == 0)
+    throw InvalidInput(argument("heights") + " has " + count(size()) +
+                       " points, none with both neighbours measured: a slope by central differences needs one");
+  return std::sqrt(slopes.sum / slopes.count);
+}
+
+LineScan LineScan::fill_dropouts(double max_fraction) const { return LineScan(row_.fill_dropouts(max_fraction)); }
+LineScan LineScan::detrend(Detrend order) const { return LineScan(row_.detrend(order)); }
+LineScan LineScan::affine_shift(double p) const { return LineScan(row_.affine_shift(p)); }
+std::vector<double> LineScan::local_peaks(double min_distance, bool periodic) const {
+  return row_.local_peaks(min_distance, periodic);
 }
 
 }  // namespace asperity

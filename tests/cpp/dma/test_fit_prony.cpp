@@ -2,7 +2,7 @@
 #include <random>
 
 #include "asperity/dma.hpp"
-#include "numerics/nnls.hpp"
+#include "numerics/dense.hpp"
 #include "reference_table.hpp"
 
 using namespace asperity;

@@ -1,8 +1,10 @@
-// Every decomposition that the project takes from Eigen: A P = Q R with pivoted columns and its complete orthogonal
-// form; and the active set method for unknowns that are not negative (C. L. Lawson and R. J. Hanson, Solving Least
-// Squares Problems (1974), chapter 23), whose every step is such a decomposition.
-#include "numerics/least_squares.hpp"
+// Decompositions by Eigen: A P = Q R with pivoted columns and its complete orthogonal form; eigenvalues and
+// eigenvectors by implicit QR (G. H. Golub and C. F. Van Loan, Matrix Computations (1996), section 8.3); and the active
+// set method for unknowns that are not negative (C. L. Lawson and R. J. Hanson, Solving Least Squares Problems (1974),
+// chapter 23), whose every step is such a decomposition.
+#include "numerics/dense.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <limits>
@@ -10,16 +12,12 @@
 
 #include "asperity/errors.hpp"
 #include "asperity/watch.hpp"
-#include "numerics/arguments.hpp"
-#include "numerics/nnls.hpp"
 
 namespace asperity {
 
 namespace {
 
 using Eigen::Index;
-using Eigen::Map;
-using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -45,34 +43,27 @@ void step_towards(const VectorXd& z, const std::vector<Index>& passive, VectorXd
   }
 }
 
-Map<const VectorXd> vector(std::span<const double> values) {
-  return {values.data(), static_cast<Index>(values.size())};
-}
-
-template <class Matrix>
-std::vector<double> columns(const Matrix& matrix) {
-  return {matrix.data(), matrix.data() + matrix.size()};
-}
-
 }  // namespace
 
-std::vector<double> shortest_solution(std::span<const double> a, std::span<const double> b) {
-  const auto size = static_cast<Index>(b.size());
-  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> qtz(Map<const MatrixXd>(a.data(), size, size));
-  return columns(VectorXd(qtz.solve(vector(b))));
+VectorXd shortest_solution(const MatrixXd& a, const VectorXd& b) {
+  return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(a).solve(b);
 }
 
-std::vector<double> inverse_normal(std::span<const double> jacobian, std::span<const double> weight) {
-  const VectorXd w = vector(weight);
-  const MatrixXd j = Map<const MatrixXd>(jacobian.data(), w.size(), static_cast<Index>(jacobian.size()) / w.size());
-  const MatrixXd normal = j.transpose() * w.asDiagonal() * j;
-  return columns(MatrixXd(Eigen::CompleteOrthogonalDecomposition<MatrixXd>(normal).pseudoInverse()));
+MatrixXd inverse_normal(const MatrixXd& jacobian, const VectorXd& weight) {
+  const MatrixXd normal = jacobian.transpose() * weight.asDiagonal() * jacobian;
+  return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(normal).pseudoInverse();
 }
 
-std::array<double, 9> inverse(std::span<const double, 9> a) {
-  std::array<double, 9> result;
-  Map<Matrix3d>(result.data()) = Matrix3d(Matrix3d(Map<const Matrix3d>(a.data())).inverse());
-  return result;
+Eigen::Matrix3d inverse(const Eigen::Matrix3d& a) { return a.inverse(); }
+
+PrincipalAxes principal_axes(const MatrixXd& symmetric) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> axes(symmetric);
+  return {axes.eigenvalues(), axes.eigenvectors()};
+}
+
+MatrixXd congruence(const MatrixXd& a, const MatrixXd& c) {
+  const MatrixXd left = a * c;
+  return left * a.transpose();
 }
 
 // Conditions of Karush, Kuhn and Tucker, which the answer fulfils to rounding: with g = A^T (b - A x), g_k = 0 where
