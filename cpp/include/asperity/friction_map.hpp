@@ -112,12 +112,9 @@
 #ifdef __GNUC__
 #define ASPERITY_MAP_INLINE __attribute__((always_inline))
 #define ASPERITY_MAP_APART __attribute__((noinline))
-#define ASPERITY_MAP_KNOWN(is_so) \
-  if (!(is_so)) __builtin_unreachable()
 #else
 #define ASPERITY_MAP_INLINE
 #define ASPERITY_MAP_APART
-#define ASPERITY_MAP_KNOWN(is_so)
 #endif
 
 #ifdef _MSC_VER
@@ -397,17 +394,12 @@ class FrictionMap {
   /// mu [-] at a pressure [Pa] and a velocity [m/s] of either sign.
   [[nodiscard]] double mu(double pressure, double velocity, Outside outside = Outside::nan,
                           const MapTemperature& temperature = {}) const noexcept {
-    const bool has_memory = info_.heat && temperature.distance < map_detail::long_slid;
     const double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
     const double shifted = speed * temperature.a_T;
     if (is_inside(pressure, shifted) && is_usual(temperature)) {  // most often
-      if (steps_ > 0 && !is_slanted_)
-        return has_memory ? warm_mu<Axis::temperature, true>(pressure, speed, temperature)
-                          : warm_mu<Axis::temperature, false>(pressure, speed, temperature);
-      if (steps_ > 0)
-        return has_memory ? warm_mu<Axis::slanted, true>(pressure, speed, temperature)
-                          : warm_mu<Axis::slanted, false>(pressure, speed, temperature);
-      if (has_memory) return warm_mu<Axis::none, true>(pressure, speed, temperature);
+      if (is_slanted_) return warm_mu<Axis::slanted>(pressure, speed, temperature);
+      if (steps_ > 0) return warm_mu<Axis::temperature>(pressure, speed, temperature);
+      if (info_.heat) return warm_mu<Axis::none>(pressure, speed, temperature);
       const double x = map_detail::ln(shifted), ln_p = map_detail::ln(pressure);
       const double ln_v = takes_shifted(temperature) ? x : map_detail::ln(speed);
       double slope = 0;
@@ -524,19 +516,18 @@ class FrictionMap {
   }
 
   /// `mu` in the box of a map with heat.
-  template <Axis axis, bool has_memory>
+  template <Axis axis>
   [[nodiscard]] double warm_mu(double pressure, double speed, const MapTemperature& temperature) const noexcept {
 #ifdef ASPERITY_MAP_FOURS
-    if (has_fours_) return warm_mu_of_fours<axis, has_memory>(pressure, speed, temperature);
+    if (has_fours_) return warm_mu_of_fours<axis>(pressure, speed, temperature);
 #endif
     const Where at = warm_place<axis>(pressure, speed, temperature.background);
-    return has_memory ? mu_after(at, temperature.distance) : mu_of(logarithms(at), log_adhesion(at));
+    if (temperature.distance < map_detail::long_slid) return mu_after(at, temperature.distance);
+    return mu_of(logarithms(at), log_adhesion(at));
   }
 
   template <Axis axis>
   [[nodiscard]] ASPERITY_MAP_INLINE Where warm_place(double pressure, double speed, double background) const noexcept {
-    ASPERITY_MAP_KNOWN((axis != Axis::none) == (steps_ > 0));
-    ASPERITY_MAP_KNOWN((axis == Axis::slanted) == is_slanted_);
     const map_detail::Pair logarithms_of_both = map_detail::ln(map_detail::Pair{speed, pressure});
     Where at;
     at.x = at.ln_v = logarithms_of_both[0];
@@ -559,14 +550,14 @@ class FrictionMap {
   }
 
   /// The digits of `mu_after` and `mu_of` in fewer steps.
-  template <Axis axis, bool has_memory>
+  template <Axis axis>
   [[nodiscard]] ASPERITY_MAP_FOURS double warm_mu_of_fours(double pressure, double speed,
                                                            const MapTemperature& temperature) const noexcept {
     using map_detail::Four;
     using map_detail::Pair;
     const Where at = warm_place<axis>(pressure, speed, temperature.background);
     const double adhesion = log_adhesion(at);
-    if (!has_memory) return mu_of(logarithms_of_fours(at), adhesion);
+    if (!(temperature.distance < map_detail::long_slid)) return mu_of(logarithms_of_fours(at), adhesion);
     const double length = log_sliding_length(at);
     const Pair cold = cold_logarithms(at), hot = logarithms_of_fours(at);
     const Pair first = map_detail::exp(Pair{-length, cold[0]});
