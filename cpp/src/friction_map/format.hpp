@@ -113,18 +113,12 @@ struct MapCertificate {
 /// What the file of a map with heat, or of one that knows directions, has beside its cells.
 struct MapHeatTables {
   std::vector<unsigned char> cold;  // the file of the map without heat, or of forces across
-  std::vector<double>
-      shift;  // ln a_T of that map and its slope, at each of several nodes of T0; or a and b of Slant
+  std::vector<double> shift;  // ln a_T of that map and its slope, at each of several nodes of T0; or a and b of Slant
   SlidingTable sliding;
 };
 
 std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& refined,
                                     const std::optional<Adhesion>& adhesion, const MapRequest& request,
                                     const MapCertificate& certificate, const MapHeatTables* heat = nullptr);
-
-/// Fills in the certificate; `progress` hears of the share of the points that are done. NotConverged where one is off
-/// by more than rtol.
-void check(const MapFrame& frame, const std::vector<unsigned char>& file, const MapRequest& request, unsigned threads,
-           const std::function<void(double)>& progress, MapCertificate& certificate);
 
 }  // namespace asperity
