@@ -18,7 +18,7 @@ void AngularColumns::resize(std::size_t n) {
 }
 
 AngularSlopes::AngularSlopes(const Rubber& rubber, std::vector<ModulusFactors> factors, Rings rings)
-    : rubber_(rubber), unlimited_(unlimited(rubber)), factors_(std::move(factors)), rings_(std::move(rings)) {}
+    : rubber_(unlimited(rubber).value_or(rubber)), factors_(std::move(factors)), rings_(std::move(rings)) {}
 
 void AngularSlopes::operator()(FeltModulus& felt) {
   constexpr double apart = 0.02;  // of ln w
@@ -60,7 +60,7 @@ void AngularSlopes::add_rings(std::span<const double> w, bool sloped, AngularCol
   const std::size_t n = w.size(), rows = harmonics_;
   for (auto* const row : {&loss_, &square_, &slopes_}) row->resize(rows * n);
   const std::span<const double> at(held_.data(), n);
-  std::visit([&](const auto& r) { r.angular_harmonics(at, rows, loss_, square_); }, unlimited_ ? *unlimited_ : rubber_);
+  std::visit([&](const auto& r) { r.angular_harmonics(at, rows, loss_, square_); }, rubber_);
   // `order`: n of the row before the first
   const auto take_slopes = [&](std::span<const double> first, std::span<const double> slope,
                                std::span<const double> others, std::size_t order) {

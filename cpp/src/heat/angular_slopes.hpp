@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -55,8 +54,7 @@ class AngularSlopes {
   void on_panels(const MasterCurve& curve, AngularColumns& result);
   void add_rings(std::span<const double> w, bool sloped, AngularColumns& result);
 
-  const Rubber& rubber_;
-  std::optional<Rubber> unlimited_;  // instead of it: a series without the range that it was fitted on
+  Rubber rubber_;  // of a series that was fitted the one without that range
   std::vector<ModulusFactors> factors_;
   Rings rings_;
   std::size_t harmonics_ = 0;

@@ -21,20 +21,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The eigenvalue of the largest size: by powers of the matrix, or all of them where two are about as large.
-double dominant_eigenvalue(const MatrixXd& matrix, const VectorXd& start) {
-  VectorXd v = start;
-  double before = 0;
-  for (int i = 0; i < 60; ++i) {
-    const double size = v.norm();
-    if (!(size > 0)) return 0;
-    v /= size;
-    const VectorXd next = matrix * v;
-    const double value = v.dot(next);
-    if (i > 2 && std::fabs(value - before) <= 1e-9 * std::fabs(value)) return value;
-    before = value;
-    v = next;
-  }
+/// The eigenvalue of the largest size.
+double dominant_eigenvalue(const MatrixXd& matrix) {
   double largest = 0;
   for (const auto& value : matrix.eigenvalues())
     if (std::abs(value) > std::fabs(largest)) largest = value.real();
@@ -130,10 +118,12 @@ FixedPoint by_march(FlashMap& map, const HeatPoint& point, const VectorXd& cold_
     found.solutions = static_cast<int>(crossings.size());
     return found;
   }
-  if (const std::optional<VectorXd> theta = march.root(low, high)) {
-    map(*theta);
+  // where eps is flat, Newton's steps in the profile do not end
+  const VectorXd theta = march.between(low, high, 10 * March::exactly);
+  map(theta);
+  if (size_of(map.rise() - theta, theta) < 1e-9) {
     tangent.take(map);
-    FixedPoint found = finished(map, *theta, tangent);
+    FixedPoint found = finished(map, theta, tangent);
     found.solutions = static_cast<int>(crossings.size());
     return found;
   }
@@ -144,7 +134,7 @@ FixedPoint by_march(FlashMap& map, const HeatPoint& point, const VectorXd& cold_
 
 void Tangent::take(FlashMap& map) {
   jacobian = map.jacobian();
-  lu.compute(identity_less(jacobian));
+  lu.compute(MatrixXd::Identity(jacobian.rows(), jacobian.cols()) - jacobian);
   slope_of_mu = map.slope_of_mu();
   part_slopes = map.part_slopes();
 }
@@ -210,7 +200,7 @@ double gain_of(FlashMap& map, const Tangent& tangent, double tolerance) {
     const double before = value;
     value = left.dot(j * right) / left.dot(right);
     if (i > 2 && std::fabs(value - before) <= 1e-9 * std::fabs(value)) break;
-    if (i == 39) return dominant_eigenvalue(map.jacobian(), map.rise());
+    if (i == 39) return dominant_eigenvalue(map.jacobian());
   }
   for (int i = 0; i < 20; ++i) {
     const VectorXd next = map.along(right);
@@ -220,7 +210,7 @@ double gain_of(FlashMap& map, const Tangent& tangent, double tolerance) {
     if (std::fabs(value - before) <= (i == 0 ? 10 : 1) * tolerance * std::fabs(value)) return value;
     right = next / next.norm();
   }
-  return dominant_eigenvalue(map.jacobian(), map.rise());
+  return dominant_eigenvalue(map.jacobian());
 }
 
 }  // namespace asperity

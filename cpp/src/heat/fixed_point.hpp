@@ -31,12 +31,11 @@ class March {
   March(FlashMap& map, double background, const Eigen::VectorXd& cold_rise);
   /// Neighbouring places on both sides of eps = 1, in the order of the curve, up to twice the highest temperature.
   std::vector<std::pair<Place, Place>> crossings();
-  /// The profile between two of them where ln eps is within `near` of 0.
+  /// The profile between two of them where ln eps is within `near` of 0, or as near as they come.
   Eigen::VectorXd between(Place low, Place high, double near);
-  /// The profile at eps = 1 between them, also where eps is flat, so that Newton's steps in the profile do not end.
-  std::optional<Eigen::VectorXd> root(Place low, Place high);
   /// Whether a profile lies between two places, as far as these are known.
   [[nodiscard]] static bool is_between(const Place& low, const Place& high, const Eigen::VectorXd& theta);
+  static constexpr double exactly = 1e-12;  // of the largest rise
 
  private:
   std::optional<Place> next();
@@ -59,9 +58,6 @@ class March {
   double stride_ = 0;             // the last one
   std::optional<bool> negative_;  // the determinant of the bordered slopes along the curve
 };
-
-/// 1 - factor dF/dtheta.
-Eigen::MatrixXd identity_less(const Eigen::MatrixXd& jacobian, double factor = 1);
 
 /// Rubber does not stand more [K].
 inline constexpr double highest_rubber_temperature = 700;

@@ -11,6 +11,7 @@
 
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/chebyshev.hpp"
 #include "numerics/gauss_legendre.hpp"
 
 namespace asperity {
@@ -108,32 +109,18 @@ HeatFunctions disc_far(double x) {
 class DiscTable {
  public:
   DiscTable() {
+    const ChebyshevZeros<terms> zeros;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
-      std::array<HeatFunctions, terms> sample{};
+      std::array<double, terms> n{}, q{};
       for (std::size_t j = 0; j < terms; ++j) {
-        const double x = std::exp(start + width * (static_cast<double>(piece) + 0.5 * (1 + std::cos(angle(j)))));
-        sample[j] = disc_by_quadrature(x);
-        sample[j].n *= 1 + x;
-        sample[j].q *= 1 + x;
+        const double x = std::exp(start + width * (static_cast<double>(piece) + 0.5 * (1 + zeros.point[j])));
+        const HeatFunctions sample = disc_by_quadrature(x);
+        n[j] = (1 + x) * sample.n;
+        q[j] = (1 + x) * sample.q;
       }
-      // sum of c_k T_k as powers: T_k+1 = 2 u T_k - T_k-1
-      std::array<double, terms> now{1}, before{};
-      for (std::size_t k = 0; k < terms; ++k) {
-        HeatFunctions c{};
-        for (std::size_t j = 0; j < terms; ++j) {
-          const double weight = (k == 0 ? 1.0 : 2.0) / terms * std::cos(static_cast<double>(k) * angle(j));
-          c.n += weight * sample[j].n;
-          c.q += weight * sample[j].q;
-        }
-        std::array<double, terms> next{};
-        for (std::size_t m = 0; m < terms; ++m) {
-          power_[piece][m].n += c.n * now[m];
-          power_[piece][m].q += c.q * now[m];
-          next[m] = (m == 0 ? 0 : (k == 0 ? 1 : 2) * now[m - 1]) - before[m];
-        }
-        before = now;
-        now = next;
-      }
+      n = powers_of(zeros.series(n));
+      q = powers_of(zeros.series(q));
+      for (std::size_t m = 0; m < terms; ++m) power_[piece][m] = {n[m], q[m]};
     }
   }
 
@@ -155,7 +142,6 @@ class DiscTable {
   static constexpr std::size_t pieces = 32, terms = 18;
 
  private:
-  static double angle(std::size_t j) { return pi * (static_cast<double>(j) + 0.5) / terms; }
   std::array<std::array<HeatFunctions, terms>, pieces> power_{};
 };
 
@@ -170,6 +156,8 @@ HeatFunctions heat_functions(Residence residence, double x) {
 }
 
 namespace {
+
+constexpr double near = 0.004;  // |q - q'| / (q + q'), where differences keep twelve digits
 
 /// Refuses a number that only a slip of unit gives.
 void require_between(std::string_view name, double value, double lowest, double highest, std::string_view unit) {
@@ -209,7 +197,6 @@ HeatKernel::Place HeatKernel::at(double wavenumber) const {
 // N / x falls with the slope -Q / x^2: where x and y are near, the difference is the mean of that between them.
 double HeatKernel::operator()(const Place& felt, const Place& heated) const {
   const double x = felt.x, y = heated.x, sum = x + y, apart = y - x;
-  constexpr double near = 0.01;
   if (std::fabs(apart) > near * sum) return time_ * x * x * y * ((felt.psi - heated.psi) / (apart * sum));
   if (apart == 0) return time_ / 2 * felt.q;
   const LegendreRule& rule = legendre_rule(4);
@@ -221,24 +208,6 @@ double HeatKernel::operator()(const Place& felt, const Place& heated) const {
   return time_ * x * x * y / sum * mean;
 }
 
-// The mean of a smooth function over a thousandth of its argument: that of its values at two Gauss nodes.
-double HeatKernel::near(double felt, double heated) const {
-  const double x = 2 * felt * length_, y = 2 * heated * length_, sum = x + y, apart = y - x;
-  constexpr double node = 0.57735026918962576;
-  double mean = 0;
-  for (const double side : {-node, node}) {
-    const double z = sum / 2 + apart / 2 * side;
-    mean += heat_functions(residence_, z).q / (2 * z * z);
-  }
-  return time_ * x * x * y / sum * mean;
-}
-
-namespace {
-
-constexpr double near_in_table = 0.004;  // |q - q'| / (q + q'), where differences keep twelve digits
-
-}  // namespace
-
 HeatKernelTable::HeatKernelTable(std::span<const double> felt, std::span<const double> heated)
     : felt_(felt.begin(), felt.end()), heated_(heated.begin(), heated.end()) {
   using Eigen::Index;
@@ -247,7 +216,7 @@ HeatKernelTable::HeatKernelTable(std::span<const double> felt, std::span<const d
     for (Index i = 0; i < factor_.rows(); ++i) {
       const double a = felt[static_cast<std::size_t>(i)], b = heated[static_cast<std::size_t>(j)];
       const double apart = b - a, sum = a + b;
-      if (std::fabs(apart) > near_in_table * sum) {
+      if (std::fabs(apart) > near * sum) {
         factor_(i, j) = 2 * (a * a) * (b * b) / (apart * sum);
       } else {
         factor_(i, j) = 0;
@@ -275,7 +244,7 @@ void HeatKernelTable::fill(const Heating& heating, double velocity, Eigen::Matri
         kernel.time() * kernel.length() * factor_.col(j).array() * (psi_felt_.array() - psi_heated_[j]);
   for (const auto& [i, j] : near_) {
     const double q = felt_[static_cast<std::size_t>(i)], heated = heated_[static_cast<std::size_t>(j)];
-    table(i, j) = heated * kernel.near(q, heated);
+    table(i, j) = heated * kernel(kernel.at(q), kernel.at(heated));
   }
 }
 

@@ -33,8 +33,6 @@ class HeatKernel {
   [[nodiscard]] Place at(double wavenumber) const;
   /// g [s].
   [[nodiscard]] double operator()(const Place& felt, const Place& heated) const;
-  /// The same of wavenumbers that differ by less than a hundredth.
-  [[nodiscard]] double near(double felt, double heated) const;
   [[nodiscard]] double time() const { return time_; }      // t [s]
   [[nodiscard]] double length() const { return length_; }  // l [m]
   /// 2 q t N(2 q l) [s/m], the same from a unit of heat at the surface itself: the limit q' -> inf of g times q'.

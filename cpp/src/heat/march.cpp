@@ -20,19 +20,12 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double flat = 0.1;       // of ln eps over a stride, where solutions may be near each other
-constexpr double exactly = 1e-12;  // of the largest rise
+constexpr double flat = 0.1;  // of ln eps over a stride, where solutions may be near each other
 
 /// The length of a change of x: 1 where all of it grows by a factor e.
 double length_of(const VectorXd& change) { return change.norm() / std::sqrt(static_cast<double>(change.size())); }
 
 }  // namespace
-
-MatrixXd identity_less(const MatrixXd& jacobian, double factor) {
-  MatrixXd matrix = -factor * jacobian;
-  matrix.diagonal().array() += 1;
-  return matrix;
-}
 
 March::March(FlashMap& map, double background, const VectorXd& cold_rise)
     : map_(map), background_(background), highest_(std::fmax(highest_rubber_temperature - background, 1)) {
@@ -194,38 +187,18 @@ std::vector<std::pair<Place, Place>> March::crossings() {
   return result;
 }
 
-VectorXd March::between(Place low, Place high, double near) {
-  double from = std::log(low.eps), to = std::log(high.eps);
-  for (int i = 0; i < 40; ++i) {
-    const Place& nearer = std::fabs(from) < std::fabs(to) ? low : high;
-    if (std::fabs(std::log(nearer.eps)) < near) return settled(nearer);
-    const double share = i % 3 == 2 ? 0.5 : std::clamp(from / (from - to), 0.05, 0.95);
-    const std::optional<Place> found = solve_between(low, high, share);
-    if (!found) break;
-    if ((std::log(found->eps) < 0) == (from < 0)) {
-      low = *found;
-      from = std::log(low.eps);
-    } else {
-      high = *found;
-      to = std::log(high.eps);
-    }
-  }
-  return settled(std::fabs(from) < std::fabs(to) ? low : high);
-}
-
 /// By Ridders' steps, as eps may be nearly flat.
-std::optional<VectorXd> March::root(Place low, Place high) {
+VectorXd March::between(Place low, Place high, double near) {
+  const auto y = [](const Place& place) { return std::log(place.eps); };
+  const auto nearer = [&] { return std::fabs(y(low)) < std::fabs(y(high)) ? low : high; };
   constexpr int most = 60;
-  for (int i = 0; i < most; ++i) {
-    const double y_low = std::log(low.eps), y_high = std::log(high.eps);
-    const Place& nearer = std::fabs(y_low) < std::fabs(y_high) ? low : high;
-    if (std::fabs(std::log(nearer.eps)) < 10 * exactly || high.s - low.s < exactly) return settled(nearer);
+  for (int i = 0; i < most && std::fabs(y(nearer())) >= near && high.s - low.s >= exactly; ++i) {
     const std::optional<Place> middle = solve_between(low, high, 0.5);
-    if (!middle) return {};
-    const double y = std::log(middle->eps), size = std::sqrt(y * y - y_low * y_high);
+    if (!middle) break;
+    const double at = y(*middle), size = std::sqrt(at * at - y(low) * y(high));
     std::optional<Place> found = middle;
     if (size > 0)
-      if (auto next = solve_between(low, high, 0.5 + 0.5 * (y_low < y_high ? -1 : 1) * y / size))
+      if (auto next = solve_between(low, high, 0.5 + 0.5 * (y(low) < y(high) ? -1 : 1) * at / size))
         found = std::move(next);
     std::vector<Place> places{low, *middle, *found, high};
     std::ranges::sort(places, {}, &Place::s);
@@ -236,7 +209,7 @@ std::optional<VectorXd> March::root(Place low, Place high) {
         break;
       }
   }
-  return {};
+  return settled(nearer());
 }
 
 bool March::is_between(const Place& low, const Place& high, const VectorXd& theta) {
