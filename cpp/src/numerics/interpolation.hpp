@@ -33,6 +33,33 @@ inline ValueAndSlope hermite(double a, double da, double b, double db, double h,
   return {a + t * (h * da + t * (square + t * cube)), (h * da + t * (2 * square + 3 * t * cube)) / h};
 }
 
+/// Lagrange's polynomials through n places: each is 1 at its own and 0 at the others.
+template <std::size_t n>
+class Lagrange {
+ public:
+  explicit Lagrange(const std::array<double, n>& place) : place_(place) {
+    norm_.fill(1);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j)
+        if (j != i) norm_[i] /= place[i] - place[j];
+  }
+  [[nodiscard]] const std::array<double, n>& place() const { return place_; }
+  std::array<double, n> operator()(double x) const {
+    std::array<double, n> result = norm_;
+    double before = 1, behind = 1;
+    for (std::size_t i = 0; i < n; ++i) {
+      result[i] *= before;
+      before *= x - place_[i];
+      result[n - 1 - i] *= behind;
+      behind *= x - place_[n - 1 - i];
+    }
+    return result;
+  }
+
+ private:
+  std::array<double, n> place_, norm_;
+};
+
 /// A piecewise cubic that has its extrema at the data and nowhere else; M. Steffen, Astron. Astrophys. 239, 443
 /// (1990): the slope at a row is the parabola's through it and its neighbours, limited to twice the smaller of
 /// the two secants, and zero where they differ in sign.

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "numerics/gauss_legendre.hpp"
+#include "numerics/interpolation.hpp"
 #include "rubber/unlimited_rubber.hpp"
 
 namespace asperity {
@@ -27,35 +28,12 @@ constexpr double below = 1e-3;                   // of the lowest frequency, fro
 constexpr double longest = 0.5;                  // in ln w, between breaks
 
 /// Places in s = sqrt(ln(w / low) / ln(high / low)), Chebyshev's points of the first kind.
-std::array<double, 6> chebyshev_places() {
+Lagrange<6> chebyshev_places() {
   std::array<double, 6> result{};
   for (std::size_t i = 0; i < 6; ++i) result[i] = (1 - std::cos(pi * (static_cast<double>(i) + 0.5) / 6)) / 2;
-  return result;
+  return Lagrange<6>(result);
 }
-const std::array<double, 6> place_of = chebyshev_places();
-
-/// What makes the products of lagrange() 1 at their own place.
-std::array<double, 6> lagrange_norms() {
-  std::array<double, 6> result{1, 1, 1, 1, 1, 1};
-  for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < 6; ++j)
-      if (j != i) result[i] /= place_of[i] - place_of[j];
-  return result;
-}
-const std::array<double, 6> norm_of = lagrange_norms();
-
-/// The polynomials that are 1 at one place and 0 at the others.
-std::array<double, 6> lagrange(double s) {
-  std::array<double, 6> result = norm_of;
-  double before = 1, behind = 1;
-  for (std::size_t i = 0; i < 6; ++i) {
-    result[i] *= before;
-    before *= s - place_of[i];
-    result[5 - i] *= behind;
-    behind *= s - place_of[5 - i];
-  }
-  return result;
-}
+const Lagrange<6> lagrange = chebyshev_places();
 
 /// The cubic through values at 0, 1/3, 2/3 and 1.
 Eigen::RowVector4d cubic_through(const Eigen::RowVector4d& f) {
@@ -207,7 +185,7 @@ void ModulusGradient::take_integrals() {
   }
   for (std::size_t i = 0; i < stretches_.size(); ++i)
     for (int p = 0; p < places; ++p) {
-      const double s = place_of[static_cast<std::size_t>(p)];
+      const double s = lagrange.place()[static_cast<std::size_t>(p)];
       const double w = stretches_[i].low * std::pow(stretches_[i].high / stretches_[i].low, s * s);
       const Index column = static_cast<Index>(i) * places + p;
       std::size_t near = 0;  // the first stretch that reaches beyond `far`

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/interpolation.hpp"
 #include "rubber/loss_part.hpp"
 
 namespace asperity {
@@ -20,20 +21,7 @@ namespace {
 constexpr Index points = 8;     // of a polynomial
 constexpr double step = 0.125;  // of ln w; its error is 1e-8
 
-/// The polynomials that are 1 at one of 0, 1, ... and 0 at the others.
-std::array<double, points> lagrange(double x) {
-  constexpr std::array<double, points> norm{-1.0 / 5040, 1.0 / 720, -1.0 / 240, 1.0 / 144,
-                                            -1.0 / 144,  1.0 / 240, -1.0 / 720, 1.0 / 5040};
-  std::array<double, points> result = norm;
-  double before = 1, behind = 1;
-  for (std::size_t i = 0; i < points; ++i) {
-    result[i] *= before;
-    before *= x - static_cast<double>(i);
-    result[points - 1 - i] *= behind;
-    behind *= x - static_cast<double>(points - 1 - i);
-  }
-  return result;
-}
+const Lagrange<points> lagrange({0, 1, 2, 3, 4, 5, 6, 7});
 
 }  // namespace
 
