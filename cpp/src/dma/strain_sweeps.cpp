@@ -12,6 +12,14 @@ namespace asperity {
 
 namespace {
 
+/// In rising order, those that differ by rounding as one.
+void sort_apart(std::vector<double>& numbers) {
+  std::ranges::sort(numbers);
+  const auto near = [](double a, double b) { return b - a <= 1e-9 * a; };
+  const auto repeated = std::ranges::unique(numbers, near);
+  numbers.erase(repeated.begin(), repeated.end());
+}
+
 constexpr double small = 0.005;  // the article's Section 5.1: 0.5 % is small strain
 
 /// The place of a sweep on the master curve, and the ratios of its moduli there.
@@ -72,10 +80,7 @@ LargeStrain at_strain(const MasterCurve& small_strain, const ShiftTable& shifts,
   std::vector<double> frequency = w;
   for (const double at : x)
     if (at > std::log(w.front()) && at < std::log(w.back())) frequency.push_back(std::exp(at));
-  std::ranges::sort(frequency);
-  const auto near = [](double a, double b) { return b - a <= 1e-9 * a; };
-  const auto repeated = std::ranges::unique(frequency, near);
-  frequency.erase(repeated.begin(), repeated.end());
+  sort_apart(frequency);
   std::vector<double> large_storage, large_loss;
   for (const double f : frequency) {
     const std::complex<double> e = small_strain.modulus(f);
@@ -138,10 +143,7 @@ StrainRatios strain_factors(std::span<const StrainSweep> sweeps, std::optional<d
   for (const StrainSweep& sweep : sweeps)
     for (const double e : sweep.strain())
       if (e > reference) strain.push_back(e);
-  std::ranges::sort(strain);
-  const auto near = [](double a, double b) { return b - a <= 1e-9 * a; };
-  const auto repeated = std::ranges::unique(strain, near);
-  strain.erase(repeated.begin(), repeated.end());
+  sort_apart(strain);
 
   std::vector<double> storage{1}, loss{1}, storage_error{0}, loss_error{0};
   double log_f = 0, log_g = 0;

@@ -19,9 +19,9 @@ bool meet(const Isotherm& a, const Isotherm& b, double b_a, double b_b) {
 namespace {
 
 /// Where f is least near x, by quasi-Newton steps (BFGS; J. Nocedal and S. J. Wright, Numerical Optimization, Springer
-/// 2006, Algorithm 6.1 with a line search that halves). f(x, gradient) gives the value. `inverse`, of the Hessian, is
+/// 2006, Algorithm 6.1 with a line search that halves). `inverse`, of the Hessian, is
 /// improved on the way: one that is empty begins as the identity. Ends where a step would gain less than `gain`.
-double minimize(ShiftLikelihood& f, Eigen::VectorXd& x, Eigen::MatrixXd& inverse, double gain) {
+void minimize(ShiftLikelihood& f, Eigen::VectorXd& x, Eigen::MatrixXd& inverse, double gain) {
   constexpr int most_steps = 200;
   const Eigen::Index n = x.size();
   Eigen::VectorXd gradient(n), next_gradient(n);
@@ -68,7 +68,6 @@ double minimize(ShiftLikelihood& f, Eigen::VectorXd& x, Eigen::MatrixXd& inverse
     value = next_value;
     gradient = next_gradient;
   }
-  return value;
 }
 
 // Steps end where they would gain less of -ln L: a hundredth of a standard deviation at the end, less on the way there.
@@ -76,7 +75,7 @@ constexpr double gain = 1e-4, rough_gain = 1e-2;
 
 ShiftFit descend(ShiftLikelihood& likelihood, const Smoothness& smoothness, Eigen::VectorXd unknowns, double weight,
                  std::initializer_list<double> floors) {
-  ShiftFit fit{std::move(unknowns), {}, weight, 0};
+  ShiftFit fit{std::move(unknowns), {}, weight};
   likelihood.weight = weight;
   for (const double floor : floors) {
     likelihood.floor = floor;
@@ -85,10 +84,10 @@ ShiftFit descend(ShiftLikelihood& likelihood, const Smoothness& smoothness, Eige
         fit.unknowns[fit.unknowns.size() - 2 + static_cast<Eigen::Index>(m)] +=
             std::log1p(std::pow(floor / smoothness.noise[m], 2));
     const bool last = floor == *(floors.end() - 1);
-    fit.value = minimize(likelihood, fit.unknowns, fit.inverse, last ? gain : rough_gain);
+    minimize(likelihood, fit.unknowns, fit.inverse, last ? gain : rough_gain);
   }
   Eigen::VectorXd gradient;
-  fit.value = likelihood(fit.unknowns, gradient);  // so that its splines are those of the end
+  likelihood(fit.unknowns, gradient);  // so that its splines are those of the end
   return fit;
 }
 

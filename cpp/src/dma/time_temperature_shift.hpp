@@ -50,12 +50,11 @@ inline constexpr double least_overlap = 0.3;  // decades that neighbours should 
 /// Whether the values of two sweeps meet at all: E' of one lies within that of the other somewhere.
 bool meet(const Isotherm& a, const Isotherm& b, double b_a, double b_b);
 
-/// The likeliest shifts, and the likelihood there.
+/// The likeliest shifts.
 struct ShiftFit {
   Eigen::VectorXd unknowns;  // of ShiftLikelihood
   Eigen::MatrixXd inverse;   // of the Hessian, as the search has it
   double weight;             // of the data against the prior
-  double value;
 };
 /// From the pair search, or from unknowns that are known to be near.
 ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness);

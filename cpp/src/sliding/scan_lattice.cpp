@@ -16,16 +16,21 @@ namespace asperity {
 
 namespace {
 
+LogRatios operator+(const LogRatios& a, const LogRatios& b) {
+  return {a.hysteresis + b.hysteresis, a.area + b.area, a.across + b.across, 0};
+}
+LogRatios operator*(double factor, const LogRatios& a) {
+  return {factor * a.hysteresis, factor * a.area, factor * a.across, 0};
+}
+
 /// Lagrange's polynomial.
-Interpolated polynomial(std::span<const double> at, std::span<const LogRatios> values, double x) {
-  Interpolated result{};
+LogRatios polynomial(std::span<const double> at, std::span<const LogRatios> values, double x) {
+  LogRatios result{};
   for (std::size_t i = 0; i < at.size(); ++i) {
     double weight = 1;
     for (std::size_t j = 0; j < at.size(); ++j)
       if (j != i) weight *= (x - at[j]) / (at[i] - at[j]);
-    result.hysteresis += weight * values[i].hysteresis;
-    result.area += weight * values[i].area;
-    result.across += weight * values[i].across;
+    result = result + weight * values[i];
   }
   return result;
 }
@@ -48,13 +53,6 @@ double VelocityLattice::position(double velocity) const {
 }
 
 namespace {
-
-LogRatios operator+(const LogRatios& a, const LogRatios& b) {
-  return {a.hysteresis + b.hysteresis, a.area + b.area, a.across + b.across, 0};
-}
-LogRatios operator*(double factor, const LogRatios& a) {
-  return {factor * a.hysteresis, factor * a.area, factor * a.across, 0};
-}
 
 /// A step of the lattice, as often halved as it must be.
 struct Step {
@@ -105,7 +103,7 @@ class VelocityInterpolant {
         if (value) values[i] = *value;
       }
       if (!complete) return std::nullopt;
-      const Interpolated cubic = polynomial(at, values, middle);
+      const LogRatios cubic = polynomial(at, values, middle);
       const double miss =
           std::max(std::fabs(cubic.hysteresis - in_middle->hysteresis), std::fabs(cubic.area - in_middle->area));
       if (miss <= 2 * tolerance_ || miss <= in_middle->noise || length == 2) {
@@ -174,8 +172,8 @@ std::optional<Interpolated> over_pressure(double pressure, double tolerance,
   const LogRatios from = 0.5 * (values[2] + -1 * values[0]), to = 0.5 * (values[3] + -1 * values[1]);
   const LogRatios value =
       u * u * (1 + 2 * t) * values[1] + t * t * (3 - 2 * t) * values[2] + t * u * u * from + -t * t * u * to;
-  const Interpolated low = polynomial(std::span(at).first(3), std::span(values).first(3), x),
-                     high = polynomial(std::span(at).last(3), std::span(values).last(3), x);
+  const LogRatios low = polynomial(std::span(at).first(3), std::span(values).first(3), x),
+                  high = polynomial(std::span(at).last(3), std::span(values).last(3), x);
   error += std::max(std::fabs(low.hysteresis - high.hysteresis), std::fabs(low.area - high.area)) / 2;
   return Interpolated{value.hysteresis, value.area, value.across, error};
 }

@@ -1,5 +1,5 @@
-// The preparation of a map for its transform: windows that bring it to zero at its ends, their effect on the statistics,
-// the rows that they leave reliable, the trend, and the factors that make |sum|^2 a density.
+// The preparation of a map for its transform: windows that bring it to zero at its ends, their effect on the
+// statistics, the rows that they leave reliable, the trend, and the factors that make |sum|^2 a density.
 #pragma once
 
 #include <array>
