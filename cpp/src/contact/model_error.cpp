@@ -12,7 +12,7 @@
 #include "contact/grid/directions.hpp"
 #include "contact/heights.hpp"
 #include "contact/theory/s_factor.hpp"
-#include "rubber/unlimited_rubber.hpp"
+#include "rubber/loss_part.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {

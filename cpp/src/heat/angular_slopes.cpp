@@ -9,7 +9,6 @@
 
 #include "numerics/kernels.hpp"
 #include "rubber/loss_part.hpp"
-#include "rubber/unlimited_rubber.hpp"
 
 namespace asperity {
 

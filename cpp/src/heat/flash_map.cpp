@@ -11,7 +11,7 @@
 #include <numbers>
 
 #include "contact/correction.hpp"
-#include "rubber/unlimited_rubber.hpp"
+#include "rubber/loss_part.hpp"
 
 namespace asperity {
 

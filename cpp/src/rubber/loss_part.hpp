@@ -1,6 +1,7 @@
-// The part of I2 that the loss modulus has.
+// The part of I2 that the loss modulus has, and a rubber of which no one asks what was measured.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "asperity/rubber.hpp"
@@ -15,5 +16,13 @@ void loss_part(const PronySeries& series, std::span<const double> w, std::span<d
 void loss_part_gradient(const PronySeries& series, std::span<const double> w, std::span<const double> by_part,
                         std::span<double> moduli, std::span<double> relaxation_times);
 void loss_part(const Rubber& rubber, std::span<const double> w, std::span<double> part);
+
+/// A series without the range that it was fitted on: the parts of I1 and I2 from outside of the range cost more than I1
+/// and I2 do. None where `rubber` has no such range.
+inline std::optional<Rubber> unlimited(const Rubber& rubber) {
+  const auto* const series = std::get_if<PronySeries>(&rubber);
+  if (!series || !series->fitted_range()) return std::nullopt;
+  return PronySeries(series->equilibrium_modulus(), series->moduli(), series->relaxation_times());
+}
 
 }  // namespace asperity

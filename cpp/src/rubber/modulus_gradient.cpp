@@ -12,7 +12,7 @@
 
 #include "numerics/gauss_legendre.hpp"
 #include "numerics/interpolation.hpp"
-#include "rubber/unlimited_rubber.hpp"
+#include "rubber/loss_part.hpp"
 
 namespace asperity {
 

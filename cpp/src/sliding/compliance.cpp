@@ -9,7 +9,7 @@
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/gauss_legendre.hpp"
-#include "rubber/unlimited_rubber.hpp"
+#include "rubber/loss_part.hpp"
 #include "sliding/contact_solver.hpp"
 
 namespace asperity {

@@ -8,7 +8,6 @@
 
 #include "numerics/arguments.hpp"
 #include "numerics/gauss_legendre.hpp"
-#include "spectrum/last_law.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {

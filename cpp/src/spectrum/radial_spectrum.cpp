@@ -206,32 +206,38 @@ class Rings {
   std::vector<double> squared_radius_;  // of k_y = 0 .. ny / 2
 };
 
-/// With room for `most` harmonics of each ring, or none, in `directions`.
-std::vector<Ring> ring_sums(const HeightMap& map, const Rings& rings, const Preparation& prepared, unsigned threads,
-                            std::size_t most, std::vector<Rings::Directions>& directions, const Reliability& reliable,
-                            Rings::Slopes& slopes) {
-  std::vector<Rings::Sums> sums(threads, Rings::Sums(rings));
-  std::vector<std::vector<Rings::Directions>> of_parts(threads, std::vector<Rings::Directions>(rings.size() * most));
-  std::vector<Rings::Slopes> of_slopes(threads);
+/// With `most` harmonics of each ring, or none.
+struct RingSums {
+  std::vector<Ring> rings;
+  std::vector<Rings::Directions> directions;
+  Rings::Slopes slopes = {};
+};
+RingSums ring_sums(const HeightMap& map, const Rings& rings, const Preparation& prepared, unsigned threads,
+                   std::size_t most, const Reliability& reliable) {
+  struct Part {
+    Rings::Sums rings;
+    std::vector<Rings::Directions> directions;
+    Rings::Slopes slopes = {};
+  };
+  RingSums total{std::vector<Ring>(rings.size()), std::vector<Rings::Directions>(rings.size() * most)};
+  std::vector<Part> parts(threads, Part{Rings::Sums(rings), total.directions});
   for_each_mode_column(map, prepared, threads, [&](unsigned part, std::size_t kx, const auto* column) {
-    rings.add_column(kx, column, sums[part]);
-    rings.add_slopes(kx, column, reliable.lowest, reliable.highest, of_slopes[part]);
-    if (most > 0) rings.add_directions(kx, column, most, of_parts[part]);
+    rings.add_column(kx, column, parts[part].rings);
+    rings.add_slopes(kx, column, reliable.lowest, reliable.highest, parts[part].slopes);
+    if (most > 0) rings.add_directions(kx, column, most, parts[part].directions);
   });
-  for (const Rings::Slopes& one : of_slopes) slopes.add(one);
-  directions.assign(rings.size() * most, {});
-  for (const auto& part : of_parts)
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      directions[i].cosine += part[i].cosine;
-      directions[i].sine += part[i].sine;
-      directions[i].modes += part[i].modes;
+  for (const Part& part : parts) {
+    total.slopes.add(part.slopes);
+    for (std::size_t i = 0; i < part.directions.size(); ++i) {
+      total.directions[i].cosine += part.directions[i].cosine;
+      total.directions[i].sine += part.directions[i].sine;
+      total.directions[i].modes += part.directions[i].modes;
     }
-  std::vector<Ring> total(rings.size());
-  for (const Rings::Sums& part : sums)
     for (std::size_t r = 0; r < rings.size(); ++r) {
-      total[r].power += part.own[r].power + Pair{2, 4} * part.mirrored[r].power;
-      total[r].modes += part.own[r].modes + 2 * part.mirrored[r].modes;
+      total.rings[r].power += part.rings.own[r].power + Pair{2, 4} * part.rings.mirrored[r].power;
+      total.rings[r].modes += part.rings.own[r].modes + 2 * part.rings.mirrored[r].modes;
     }
+  }
   return total;
 }
 
@@ -325,12 +331,10 @@ TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::option
   const auto [ny, nx] = map.shape();
   const auto [dy, dx] = map.pixel_size();
   const Rings rings(map.shape(), map.pixel_size());
-  std::vector<Rings::Directions> directions;
   const double shorter = std::min(static_cast<double>(ny) * dy, static_cast<double>(nx) * dx);
   const std::vector<double>& covariances = prepared.ring_covariances;
   const Reliability reliable(window, shorter, std::max(dy, dx), covariances[0]);
-  Rings::Slopes slopes;
-  const std::vector<Ring> sums = ring_sums(map, rings, prepared, threads, most, directions, reliable, slopes);
+  const auto [sums, directions, slopes] = ring_sums(map, rings, prepared, threads, most, reliable);
   RingHarmonics harmonics{most, {}, {}, {}};
   std::vector<double> wavenumber, density;
   RowQuality quality;

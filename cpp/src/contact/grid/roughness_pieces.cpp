@@ -12,7 +12,6 @@
 
 #include "asperity/watch.hpp"
 #include "spectrum/harmonics.hpp"
-#include "spectrum/last_law.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/table_surface.hpp"
 

@@ -12,7 +12,7 @@
 #include "contact/theory/partial_contact_rule.hpp"
 #include "contact/theory/rule_error.hpp"
 #include "numerics/kernels.hpp"
-#include "rubber/unlimited_rubber.hpp"
+#include "rubber/loss_part.hpp"
 
 namespace asperity {
 
