@@ -33,19 +33,19 @@ inline fmi2Status none_of(fmi2Component c, std::size_t nvr, const char* kind) {
 
 }  // namespace asperity_fmu
 
+using namespace asperity_fmu;
+
 extern "C" {
 
 ASPERITY_FMU_EXPORT const char* fmi2GetTypesPlatform(void) { return "default"; }
 ASPERITY_FMU_EXPORT const char* fmi2GetVersion(void) { return "2.0"; }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetDebugLogging(fmi2Component c, fmi2Boolean on, std::size_t n,
                                                    const fmi2String categories[]) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [&](Instance& instance) { return instance.log(on != 0, n, categories); }));
 }
 
 ASPERITY_FMU_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, fmi2String resources,
                                                   const fmi2CallbackFunctions* functions, fmi2Boolean, fmi2Boolean) {
-  using namespace asperity_fmu;
   try {
     std::function<void(Status, const char*)> tell;
     if (functions != nullptr && functions->logger != nullptr)
@@ -63,33 +63,27 @@ ASPERITY_FMU_EXPORT fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type
   }
 }
 
-ASPERITY_FMU_EXPORT void fmi2FreeInstance(fmi2Component c) { delete static_cast<asperity_fmu::Instance*>(c); }
+ASPERITY_FMU_EXPORT void fmi2FreeInstance(fmi2Component c) { delete static_cast<Instance*>(c); }
 
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean, fmi2Real, fmi2Real start,
                                                    fmi2Boolean has_stop, fmi2Real stop) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, setting_up, [&](Instance& instance) { return instance.begin(start, has_stop != 0, stop); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2EnterInitializationMode(fmi2Component c) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [](Instance& instance) { return instance.enter(entering, initializing); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2ExitInitializationMode(fmi2Component c) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [](Instance& instance) { return instance.enter(exiting, stepping); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2Terminate(fmi2Component c) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [](Instance& instance) { return instance.enter(terminating, terminated); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2Reset(fmi2Component c) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [](Instance& instance) { return instance.reset(); }));
 }
 
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                            fmi2Real value[]) {
-  using namespace asperity_fmu;
   return each_value(
       c, reading, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
         return variable == inside ? instance.error("`inside` is an Integer") : instance.get(variable, point, value[i]);
@@ -97,7 +91,6 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueRefer
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                            const fmi2Real value[]) {
-  using namespace asperity_fmu;
   return each_value(c, setting, vr, nvr,
                     [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
                       return instance.set(variable, point, value[i]);
@@ -105,7 +98,6 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueRefer
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               fmi2Integer value[]) {
-  using namespace asperity_fmu;
   return each_value(c, reading, vr, nvr,
                     [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
                       if (variable != inside) return instance.error("`inside` is the only Integer");
@@ -117,11 +109,10 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueRe
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                               const fmi2Integer[]) {
-  return asperity_fmu::none_of(c, nvr, "Integer that can be set");
+  return none_of(c, nvr, "Integer that can be set");
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               fmi2Boolean value[]) {
-  using namespace asperity_fmu;
   return each_value(c, reading, vr, nvr,
                     [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
                       bool on = false;
@@ -132,7 +123,6 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueRe
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               const fmi2Boolean value[]) {
-  using namespace asperity_fmu;
   return each_value(c, setting, vr, nvr,
                     [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
                       return instance.set_switch(variable, point, value[i] != 0);
@@ -140,37 +130,31 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueRe
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                              fmi2String[]) {
-  return asperity_fmu::none_of(c, nvr, "String");
+  return none_of(c, nvr, "String");
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                              const fmi2String[]) {
-  return asperity_fmu::none_of(c, nvr, "String");
+  return none_of(c, nvr, "String");
 }
 
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate* state) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [&](Instance& instance) { return instance.keep(state); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate state) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [&](Instance& instance) { return instance.restore(state); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate* state) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [&](Instance&) { return forget(state); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, std::size_t* size) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [&](Instance& instance) { return instance.size_of(state, *size); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[],
                                                      std::size_t size) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [&](Instance& instance) { return instance.write(state, bytes, size); }));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], std::size_t size,
                                                        fmi2FMUstate* state) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, [&](Instance& instance) { return instance.read(bytes, size, state); }));
 }
 
@@ -178,7 +162,6 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, con
                                                             std::size_t n_unknowns, const fmi2ValueReference knowns[],
                                                             std::size_t n_knowns, const fmi2Real seed[],
                                                             fmi2Real sensitivity[]) {
-  using namespace asperity_fmu;
   return each_value(c, reading, unknowns, n_unknowns,
                     [&](Instance& instance, std::uint32_t output, std::size_t point, std::size_t i) {
                       sensitivity[i] = 0;
@@ -194,21 +177,19 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, con
 
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                                            const fmi2Integer[], const fmi2Real[]) {
-  return asperity_fmu::none_of(c, nvr, "derivative of an input");
+  return none_of(c, nvr, "derivative of an input");
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference[],
                                                             std::size_t nvr, const fmi2Integer[], fmi2Real[]) {
-  return asperity_fmu::none_of(c, nvr, "derivative of an output");
+  return none_of(c, nvr, "derivative of an output");
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2DoStep(fmi2Component c, fmi2Real from, fmi2Real size, fmi2Boolean) {
-  using namespace asperity_fmu;
   return fmi2(guarded(c, stepping_on, [&](Instance& instance) { return instance.step(from, size); }));
 }
 // A step is never pending.
 ASPERITY_FMU_EXPORT fmi2Status fmi2CancelStep(fmi2Component) { return fmi2Error; }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetStatus(fmi2Component, const fmi2StatusKind, fmi2Status*) { return fmi2Discard; }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real* value) {
-  using namespace asperity_fmu;
   if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
   return fmi2(guarded(c, [&](Instance& instance) {
     *value = instance.model->state().time;

@@ -24,6 +24,17 @@ Status each_entry(Instance& instance, const fmi3ValueReference vr[], std::size_t
                        : instance.error("there are " + std::to_string(k) + " values, not " + std::to_string(n_values));
 }
 
+/// The same as a call of the host.
+template <class Act>
+fmi3Status each_value(fmi3Instance instance, const Call& call, const fmi3ValueReference vr[], std::size_t nvr,
+                      std::size_t n_values, Act act) {
+  return fmi3(guarded(instance, call, [&](Instance& of) {
+    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
+      return act(of, variable, point, k);
+    });
+  }));
+}
+
 inline fmi3Status no_variable_of(fmi3Instance instance, std::size_t nvr, const char* type) {
   return fmi3(guarded(instance, [&](Instance& of) {
     return nvr == 0 ? Status::ok : of.error(std::string("there is no variable of type ") + type);
@@ -41,7 +52,6 @@ extern "C" {
 ASPERITY_FMU_EXPORT const char* fmi3GetVersion(void) { return "3.0"; }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, std::size_t n,
                                                    const fmi3String categories[]) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) { return of.log(on, n, categories); }));
 }
 
@@ -51,7 +61,6 @@ ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fm
                                                              std::size_t intermediate, fmi3InstanceEnvironment host,
                                                              fmi3LogMessageCallback log,
                                                              fmi3IntermediateUpdateCallback) {
-  using namespace asperity_fmu;
   try {
     std::function<void(Status, const char*)> tell;
     if (log != nullptr)
@@ -81,90 +90,74 @@ ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateScheduledExecution(fmi3String, f
                                                                    fmi3UnlockPreemptionCallback) {
   return nullptr;  // this FMU is for co-simulation
 }
-ASPERITY_FMU_EXPORT void fmi3FreeInstance(fmi3Instance instance) {
-  delete static_cast<asperity_fmu::Instance*>(instance);
-}
+ASPERITY_FMU_EXPORT void fmi3FreeInstance(fmi3Instance instance) { delete static_cast<Instance*>(instance); }
 
 ASPERITY_FMU_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3Float64,
                                                            fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, entering, [&](Instance& of) {
     const Status status = of.begin(start, has_stop, stop);
     return status == Status::ok ? of.enter(entering, initializing) : status;
   }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [](Instance& of) { return of.enter(exiting, stepping); }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [](Instance& of) { return of.enter(terminating, terminated); }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3Reset(fmi3Instance instance) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [](Instance& of) { return of.reset(); }));
 }
 
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               fmi3Float64 values[], std::size_t n_values) {
-  using namespace asperity_fmu;
-  return fmi3(guarded(instance, reading, [&](Instance& of) {
-    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
-      return variable == inside ? of.error("`inside` is an Int32") : of.get(variable, point, values[k]);
-    });
-  }));
+  return each_value(instance, reading, vr, nvr, n_values,
+                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
+                      return variable == inside ? of.error("`inside` is an Int32") : of.get(variable, point, values[k]);
+                    });
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               const fmi3Float64 values[], std::size_t n_values) {
-  using namespace asperity_fmu;
-  return fmi3(guarded(instance, setting, [&](Instance& of) {
-    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
-      return of.set(variable, point, values[k]);
-    });
-  }));
+  return each_value(instance, setting, vr, nvr, n_values,
+                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
+                      return of.set(variable, point, values[k]);
+                    });
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                             fmi3Int32 values[], std::size_t n_values) {
-  using namespace asperity_fmu;
-  return fmi3(guarded(instance, reading, [&](Instance& of) {
-    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
-      if (variable != inside) return of.error("`inside` is the only Int32");
-      double found = 0;
-      const Status status = of.get(variable, point, found);
-      values[k] = static_cast<fmi3Int32>(found);
-      return status;
-    });
-  }));
+  return each_value(instance, reading, vr, nvr, n_values,
+                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
+                      if (variable != inside) return of.error("`inside` is the only Int32");
+                      double found = 0;
+                      const Status status = of.get(variable, point, found);
+                      values[k] = static_cast<fmi3Int32>(found);
+                      return status;
+                    });
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               fmi3Boolean values[], std::size_t n_values) {
-  using namespace asperity_fmu;
-  return fmi3(guarded(instance, reading, [&](Instance& of) {
-    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
-      return of.get_switch(variable, point, values[k]);
-    });
-  }));
+  return each_value(instance, reading, vr, nvr, n_values,
+                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
+                      return of.get_switch(variable, point, values[k]);
+                    });
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               const fmi3Boolean values[], std::size_t n_values) {
-  using namespace asperity_fmu;
-  return fmi3(guarded(instance, setting, [&](Instance& of) {
-    return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
-      return of.set_switch(variable, point, values[k]);
-    });
-  }));
+  return each_value(instance, setting, vr, nvr, n_values,
+                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
+                      return of.set_switch(variable, point, values[k]);
+                    });
 }
 
 // Types of which there is no variable.
 #define ASPERITY_FMU_NO_VARIABLE(type)                                                                             \
   ASPERITY_FMU_EXPORT fmi3Status fmi3Get##type(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, \
                                                fmi3##type[], std::size_t) {                                        \
-    return asperity_fmu::no_variable_of(instance, nvr, #type);                                                     \
+    return no_variable_of(instance, nvr, #type);                                                                   \
   }                                                                                                                \
   ASPERITY_FMU_EXPORT fmi3Status fmi3Set##type(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, \
                                                const fmi3##type[], std::size_t) {                                  \
-    return asperity_fmu::no_variable_of(instance, nvr, #type);                                                     \
+    return no_variable_of(instance, nvr, #type);                                                                   \
   }
 ASPERITY_FMU_NO_VARIABLE(Float32)
 ASPERITY_FMU_NO_VARIABLE(Int8)
@@ -178,50 +171,44 @@ ASPERITY_FMU_NO_VARIABLE(String)
 #undef ASPERITY_FMU_NO_VARIABLE
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                             const fmi3Int32[], std::size_t) {
-  return asperity_fmu::no_variable_of(instance, nvr, "Int32 that can be set");
+  return no_variable_of(instance, nvr, "Int32 that can be set");
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                              std::size_t[], fmi3Binary[], std::size_t) {
-  return asperity_fmu::no_variable_of(instance, nvr, "Binary");
+  return no_variable_of(instance, nvr, "Binary");
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                              const std::size_t[], const fmi3Binary[], std::size_t) {
-  return asperity_fmu::no_variable_of(instance, nvr, "Binary");
+  return no_variable_of(instance, nvr, "Binary");
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                             fmi3Clock[]) {
-  return asperity_fmu::no_variable_of(instance, nvr, "Clock");
+  return no_variable_of(instance, nvr, "Clock");
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                             const fmi3Clock[]) {
-  return asperity_fmu::no_variable_of(instance, nvr, "Clock");
+  return no_variable_of(instance, nvr, "Clock");
 }
 
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) { return of.keep(state); }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) { return of.restore(state); }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance&) { return forget(state); }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state,
                                                           std::size_t* size) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) { return of.size_of(state, *size); }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3Byte bytes[],
                                                      std::size_t size) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) { return of.write(state, bytes, size); }));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], std::size_t size,
                                                        fmi3FMUState* state) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, [&](Instance& of) { return of.read(bytes, size, state); }));
 }
 
@@ -230,7 +217,6 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instanc
                                                             std::size_t n_knowns, const fmi3Float64 seed[],
                                                             std::size_t n_seed, fmi3Float64 sensitivity[],
                                                             std::size_t n_sensitivity) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, reading, [&](Instance& of) {
     const auto add = [&](std::uint32_t output, std::size_t point, std::size_t i) {
       sensitivity[i] = 0;
@@ -246,7 +232,6 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instanc
 ASPERITY_FMU_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 from, fmi3Float64 size, fmi3Boolean,
                                           fmi3Boolean* event, fmi3Boolean* terminate, fmi3Boolean* early,
                                           fmi3Float64* reached) {
-  using namespace asperity_fmu;
   return fmi3(guarded(instance, stepping_on, [&](Instance& of) {
     const Status status = of.step(from, size);
     for (fmi3Boolean* const answer : {event, terminate, early})
@@ -258,7 +243,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 fro
 
 // Functions of what this FMU says it has not.
 #define ASPERITY_FMU_NOT_OFFERED(name, arguments) \
-  ASPERITY_FMU_EXPORT fmi3Status name arguments { return asperity_fmu::not_offered(instance, #name); }
+  ASPERITY_FMU_EXPORT fmi3Status name arguments { return not_offered(instance, #name); }
 ASPERITY_FMU_NOT_OFFERED(fmi3EnterEventMode, (fmi3Instance instance))
 ASPERITY_FMU_NOT_OFFERED(fmi3EnterStepMode, (fmi3Instance instance))
 ASPERITY_FMU_NOT_OFFERED(fmi3GetNumberOfVariableDependencies, (fmi3Instance instance, fmi3ValueReference, std::size_t*))
