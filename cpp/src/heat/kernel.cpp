@@ -19,7 +19,7 @@ namespace asperity {
 // N(x) = int_0^1 h(w) erfcx(x sqrt w) dw. For the box, h = 1, it is M(x) = (erfcx(x) - 1 + 2 x / sqrt pi) / x^2, and
 // for the disc, by parts, N(x) = (4 / pi) int_0^1 w sqrt(1 - w^2) M(x sqrt w) dw. Since x M' = 2 (erfcx - M), Q = N -
 // x N' is 3 M - 2 erfcx for the box and the same integral over it for the disc; all integrands are positive. The disc's
-// functions are power series below x = 0.04, series in 1 / x beyond e^12.5, and polynomials in ln x between.
+// functions are series in 1 / x beyond e^12.5, and polynomials in ln x before.
 
 using std::numbers::inv_sqrtpi;
 using std::numbers::pi;
@@ -55,35 +55,15 @@ HeatFunctions box(double x) {
   return {m, 3 * m - 2 * e};
 }
 
-/// c_n of the disc, with which N is sum c_n (-x)^n: (2 / pi) B(n/4 + 1, 3/2) / ((n/2 + 1) Gamma(n/2 + 1)).
-std::array<double, 40> disc_coefficients() {
-  std::array<double, 40> c{};
-  for (std::size_t i = 0; i < c.size(); ++i) {
-    const auto n = static_cast<double>(i);
-    const double a = 0.25 * n + 1, beta = std::tgamma(a) * std::tgamma(1.5) / std::tgamma(a + 1.5);
-    c[i] = 2 / pi * beta / ((0.5 * n + 1) * std::tgamma(0.5 * n + 1));
-  }
-  return c;
-}
-
-HeatFunctions disc_near_zero(double x) {
-  static const std::array<double, 40> c = disc_coefficients();
-  HeatFunctions sum{0, 0};
-  double power = 1;
-  for (std::size_t i = 0; i < c.size() && std::fabs(power) > 1e-18; ++i, power *= -x) {
-    sum.n += c[i] * power;
-    sum.q += (1 - static_cast<double>(i)) * c[i] * power;
-  }
-  return sum;
-}
-
 /// With w = sin^2(phi), on Gauss panels that halve towards phi = 0, where M(x sin phi) changes.
 HeatFunctions disc_by_quadrature(double x) {
   const LegendreRule& rule = legendre_rule(24);
   HeatFunctions sum{0, 0};
-  double upper = pi / 2;
-  for (int panel = 0; panel < 22; ++panel) {
-    const double lower = panel == 21 ? 0 : upper / 2, half = (upper - lower) / 2;
+  double lower = pi / 2;
+  while (lower > 0) {
+    const double upper = lower;
+    lower = x * upper < 0.5 ? 0 : upper / 2;
+    const double half = (upper - lower) / 2;
     for (std::size_t i = 0; i < rule.n; ++i) {
       const double phi = lower + half * (1 + rule.node[i]), s = std::sin(phi), c = std::cos(phi);
       const double weight = half * rule.weight[i] * 8 / pi * c * c * std::sqrt(1 + s * s) * s * s * s;
@@ -91,7 +71,6 @@ HeatFunctions disc_by_quadrature(double x) {
       sum.n += weight * m.n;
       sum.q += weight * m.q;
     }
-    upper = lower;
   }
   return sum;
 }
@@ -125,8 +104,8 @@ class DiscTable {
   }
 
   [[nodiscard]] HeatFunctions operator()(double x) const {
-    const double at = (std::log(x) - start) / width;
-    const auto piece = static_cast<std::size_t>(std::fmin(std::fmax(at, 0), pieces - 1));
+    const double at = std::fmax(0, (std::log(x) - start) / width);
+    const auto piece = static_cast<std::size_t>(std::fmin(at, pieces - 1));
     const double u = 2 * (at - static_cast<double>(piece)) - 1, square = u * u;
     const auto& power = power_[piece];
     HeatFunctions even{0, 0}, odd{0, 0};
@@ -138,8 +117,8 @@ class DiscTable {
     return {(even.n + u * odd.n) * scale, (even.q + u * odd.q) * scale};
   }
 
-  static constexpr double start = -3.25, width = 0.5;
-  static constexpr std::size_t pieces = 32, terms = 18;
+  static constexpr double start = -37.25, width = 0.5;  // below, nothing changes any more
+  static constexpr std::size_t pieces = 100, terms = 18;
 
  private:
   std::array<std::array<HeatFunctions, terms>, pieces> power_{};
@@ -149,8 +128,7 @@ class DiscTable {
 
 HeatFunctions heat_functions(Residence residence, double x) {
   if (residence == Residence::box) return box(x);
-  if (x < 0.04) return disc_near_zero(x);  // ln x = -3.22
-  if (x > 2.7e5) return disc_far(x);       // ln x = 12.5
+  if (x > 2.7e5) return disc_far(x);  // ln x = 12.5
   static const DiscTable table;
   return table(x);
 }
