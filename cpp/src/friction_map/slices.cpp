@@ -49,9 +49,9 @@ bool MapSlices::is_smooth(double lower, double upper) const {
   constexpr std::size_t a_side = 5;
   std::vector<MapPlace> at;
   std::vector<double> height;
-  for (std::size_t i = 0; i < a_side; ++i)
-    for (std::size_t j = 0; j < a_side; ++j)
-      for (const double t : points.point) {
+  for (const double t : points.point)
+    for (std::size_t i = 0; i < a_side; ++i)
+      for (std::size_t j = 0; j < a_side; ++j) {
         const double share_x = static_cast<double>(i) / (a_side - 1), share_z = static_cast<double>(j) / (a_side - 1);
         const auto [x_lo, x_hi] = frame_.x();
         const double x = x_lo + share_x * (x_hi - x_lo);
@@ -64,7 +64,7 @@ bool MapSlices::is_smooth(double lower, double upper) const {
     for (std::size_t f = 0; f < 2; ++f)
       for (const std::size_t m : {n - 2, n - 1}) {
         double coefficient = 0;
-        for (std::size_t i = 0; i < n; ++i) coefficient += points.transform[m][i] * found[k * n + i].f[f];
+        for (std::size_t i = 0; i < n; ++i) coefficient += points.transform[m][i] * found[i * a_side * a_side + k].f[f];
         if (std::fabs(coefficient) > share * rtol_) return false;
       }
   return true;
