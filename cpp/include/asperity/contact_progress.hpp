@@ -19,8 +19,6 @@ class ASPERITY_EXPORT ContactProgress {
   ~ContactProgress();
   ContactProgress(const ContactProgress&) = delete;
   ContactProgress& operator=(const ContactProgress&) = delete;
-  ContactProgress(ContactProgress&&) = delete;
-  ContactProgress& operator=(ContactProgress&&) = delete;
 
   /// The innermost of this thread that is of the scan, or nullptr.
   static ContactProgress* of(const Scan& scan) noexcept;

@@ -22,8 +22,6 @@ class ASPERITY_EXPORT Watch {
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
-  Watch(Watch&&) = delete;
-  Watch& operator=(Watch&&) = delete;
 
   /// The watch of this thread, or nullptr.
   static Watch* current() noexcept;

@@ -243,10 +243,4 @@ std::vector<double> heat_kernel(std::span<const double> q, std::span<const doubl
   return g;
 }
 
-std::vector<double> heat_kernel(std::span<const double> q, std::span<const double> q_prime, double velocity,
-                                const Heating& heating) {
-  require_positive("velocity", velocity);
-  return heat_kernel(q, q_prime, std::vector<double>(q.size(), velocity), heating);
-}
-
 }  // namespace asperity

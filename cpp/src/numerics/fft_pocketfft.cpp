@@ -28,8 +28,6 @@ struct Plan {
   Plan() = default;
   Plan(const Plan&) = delete;
   Plan& operator=(const Plan&) = delete;
-  Plan(Plan&&) = delete;
-  Plan& operator=(Plan&&) = delete;
   virtual ~Plan() = default;
   /// A row of n numbers and its modes in pocketfft's order: r_0, r_1, i_1, r_2 ...
   virtual void row(T*, Direction) const {}

@@ -59,8 +59,6 @@ class Untrapped {
   ~Untrapped() { std::fesetenv(&host_); }
   Untrapped(const Untrapped&) = delete;
   Untrapped& operator=(const Untrapped&) = delete;
-  Untrapped(Untrapped&&) = delete;
-  Untrapped& operator=(Untrapped&&) = delete;
 
  private:
   std::fenv_t host_;

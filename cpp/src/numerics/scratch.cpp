@@ -33,8 +33,6 @@ class Reserve {
   Reserve() = default;
   Reserve(const Reserve&) = delete;
   Reserve& operator=(const Reserve&) = delete;
-  Reserve(Reserve&&) = delete;
-  Reserve& operator=(Reserve&&) = delete;
   ~Reserve() { std::free(kept_.data); }
 
   Block take(std::size_t bytes) {

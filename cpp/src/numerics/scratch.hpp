@@ -14,8 +14,6 @@ class Scratch {
   ~Scratch();
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
-  Scratch(Scratch&&) = delete;
-  Scratch& operator=(Scratch&&) = delete;
   [[nodiscard]] T* data() const { return data_; }
   /// Rows of this many entries keep the alignment of the first one.
   static constexpr std::size_t aligned(std::size_t row) { return (row + 7) / 8 * 8; }

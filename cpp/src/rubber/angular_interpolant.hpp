@@ -42,9 +42,7 @@ class AngularTable {
   explicit AngularTable(std::span<const ModulusPiece> pieces);
   ~AngularTable();
   AngularTable(const AngularTable&) = delete;
-  AngularTable(AngularTable&&) = delete;
   AngularTable& operator=(const AngularTable&) = delete;
-  AngularTable& operator=(AngularTable&&) = delete;
 
   /// At `w`, which may miss the ends of the pieces by its rounding.
   [[nodiscard]] AngularIntegrals operator()(double w) const;

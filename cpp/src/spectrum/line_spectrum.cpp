@@ -46,9 +46,8 @@ double keep_side(std::span<double> heights, Part part) {
 
 }  // namespace
 
-// C1D = L / (2 pi n^2) |sum w h exp(-i q x)|^2 over the window's mean square, so that its sum over the modes of both
-// signs, times 2 pi / L, is the mean square height. Rows nearer to each other than half a wavelength are not
-// independent: the error counts one for each half wavelength.
+// The sum of C1D over the modes of both signs, times 2 pi / L, is the mean square height. Rows nearer to each other
+// than half a wavelength are not independent: the error counts one for each half wavelength.
 LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend, Part part) {
   require_filled(map);
   const std::size_t rows = map.shape()[0], n = map.shape()[1];

@@ -10,7 +10,6 @@
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/roots.hpp"
-#include "numerics/visit.hpp"
 #include "spectrum/harmonics.hpp"
 #include "spectrum/segments.hpp"
 #include "spectrum/table_surface.hpp"
@@ -156,15 +155,9 @@ std::vector<double> density(const Spectrum& spectrum, std::span<const double> wa
 }
 
 std::array<double, 2> band(const Spectrum& spectrum) {
-  return std::visit(Overloaded{
-                        [](const SelfAffineSpectrum& s) {
-                          return std::array{s.q0, s.q1};
-                        },
-                        [](const TabulatedSpectrum& s) {
-                          return std::array{s.wavenumber().front(), s.q1()};
-                        },
-                    },
-                    spectrum);
+  if (const auto* s = std::get_if<SelfAffineSpectrum>(&spectrum)) return {s->q0, s->q1};
+  const auto& table = std::get<TabulatedSpectrum>(spectrum);
+  return {table.wavenumber().front(), table.q1()};
 }
 
 double rms_height(const Spectrum& spectrum) {

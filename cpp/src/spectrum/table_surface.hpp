@@ -22,9 +22,7 @@ class TableSurface {
   struct Derived {
     Derived() = default;
     Derived(const Derived&) = delete;
-    Derived(Derived&&) = delete;
     Derived& operator=(const Derived&) = delete;
-    Derived& operator=(Derived&&) = delete;
     virtual ~Derived() = default;
   };
   template <class T>
@@ -45,9 +43,7 @@ class SurfaceSegments {
  public:
   explicit SurfaceSegments(const Spectrum& spectrum);
   SurfaceSegments(const SurfaceSegments&) = delete;
-  SurfaceSegments(SurfaceSegments&&) = delete;
   SurfaceSegments& operator=(const SurfaceSegments&) = delete;
-  SurfaceSegments& operator=(SurfaceSegments&&) = delete;
   ~SurfaceSegments() = default;
   [[nodiscard]] std::span<const Segment> get() const { return all_; }
 
