@@ -1,13 +1,13 @@
 """Time and memory of a map's spectrum: ours, bare FFTW, NumPy, SurfaceTopography, in one process.
 
-    python tests/benchmarks/spectrum.py [--sides 1000,1024,...] [--runs 7] [--output DIR]
+    python tests/benchmarks/spectrum.py [--output DIR]
 
 The yardstick is one out-of-place two-dimensional r2c transform by FFTW (FFTW_ESTIMATE, one thread,
 planned and its memory touched beforehand): the least that anyone needs. Ours is the whole way from
-the heights: plane, split cosine bell, transform, rings. All runs alternate; medians of ratios.
+the heights: plane, split cosine bell, transform, rings. All runs alternate; medians of ratios, by
+the clock on the wall, as two threads spend the processor's time twice.
 """
 
-import argparse
 import ctypes
 import ctypes.util
 import sys
@@ -18,11 +18,16 @@ from typing import Any
 
 import numpy as np
 import peaks
+import timing
 
 import asperity
+from asperity.draw.figure import new_figure, picture
+from asperity.draw.style import COLOURS
 
 SIDES = (1000, 1024, 2048, 4096, 8192)
+RUNS = 9
 SLOW = 4096  # NumPy and SurfaceTopography are timed up to here: the rest would be waiting
+METHODS = ("ours", "ours, 2 threads", "numpy", "SurfaceTopography")
 
 
 class BareFftw:
@@ -38,13 +43,7 @@ class BareFftw:
         library = ctypes.CDLL(found)
         plan = getattr(library, f"fftw{letter}_plan_dft_r2c_2d")
         plan.restype = ctypes.c_void_p
-        plan.argtypes = [
-            ctypes.c_int,
-            ctypes.c_int,
-            ctypes.c_void_p,
-            ctypes.c_void_p,
-            ctypes.c_uint,
-        ]
+        plan.argtypes = [ctypes.c_int] * 2 + [ctypes.c_void_p] * 2 + [ctypes.c_uint]
         self._execute = getattr(library, f"fftw{letter}_execute")
         self._execute.argtypes = [ctypes.c_void_p]
         ny, nx = heights.shape
@@ -103,7 +102,7 @@ def seconds(run: Callable[[], object]) -> float:
     return time.perf_counter() - start
 
 
-def measure(side: int, dtype: Any, runs: int) -> dict[str, float]:
+def measure(side: int, dtype: Any) -> dict[str, float]:
     """Median over the runs of each method's time over the bare transform's."""
     rng = np.random.default_rng(side)
     z = rng.standard_normal((side, side)).astype(dtype)
@@ -120,7 +119,7 @@ def measure(side: int, dtype: Any, runs: int) -> dict[str, float]:
             methods["SurfaceTopography"] = run
     ratios: dict[str, list[float]] = {name: [] for name in methods}
     times: list[float] = []
-    for _ in range(runs + 1):
+    for _ in range(RUNS + 1):
         for name, run in methods.items():
             if name == "SurfaceTopography" and len(ratios[name]) > 3:
                 continue
@@ -144,74 +143,39 @@ print(peak(asperity.power_spectrum, scan) * 1024 / z.nbytes)
     return peaks.printed(child)[0]
 
 
-def table(results: dict[tuple[int, str], dict[str, float]], memory: dict[int, float]) -> str:
-    """Markdown, a row a map."""
-    names = ["ours", "ours, 2 threads", "numpy", "SurfaceTopography"]
-    lines = ["| map | bare transform [ms] | " + " | ".join(names) + " | extra memory [maps] |"]
-    lines.append("| --- |" + " --- |" * (len(names) + 2))
-    for (side, kind), r in results.items():
-        cells = [f"{r[name]:.2f}" if name in r else "-" for name in names]
-        extra = f"{memory[side]:.2f}" if kind == "float64" else "-"
-        bare = f"{r['bare [ms]']:.3g}"
-        lines.append(f"| {side}^2, {kind} | {bare} | " + " | ".join(cells) + f" | {extra} |")
-    return "\n".join(lines) + "\n"
-
-
-def draw(results: dict[tuple[int, str], dict[str, float]], path: Path) -> None:
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(6.6, 3.6), layout="constrained")
-    axes = figure.add_subplot()
-    lines = {
-        "SurfaceTopography": ("float64", "s-", "#CC79A7"),
-        "numpy": ("float64", "^-", "#E69F00"),
-        "ours": ("float64", "o-", "#0072B2"),
-        "ours, 2 threads": ("float64", "o--", "#56B4E9"),
-    }
-    for name, (kind, style, colour) in lines.items():
+def draw(results: dict[tuple[int, str], dict[str, float]]) -> bytes:
+    figure, (axes,) = new_figure(1)
+    lines = [(name, "float64", "o-") for name in METHODS] + [("ours", "float32", "o:")]
+    for (name, kind, style), colour in zip(reversed(lines), COLOURS, strict=False):
         points = [(side, r[name]) for (side, k), r in results.items() if k == kind and name in r]
+        label = name if kind == "float64" else f"{name}, {kind}"
         if points:
-            axes.plot(*zip(*points, strict=True), style, color=colour, label=name, markersize=4)
-    points = [(side, r["ours"]) for (side, k), r in results.items() if k == "float32"]
-    axes.plot(
-        *zip(*points, strict=True), "o:", color="#009E73", label="ours, float32", markersize=4
-    )
+            x, y = zip(*points, strict=True)
+            axes.plot(x, y, style, color=colour, label=label, markersize=4)
     axes.axhline(1, color="0.4", linewidth=0.8)
     axes.annotate("a bare FFTW transform", (2300, 1.06), fontsize="small", color="0.3")
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
-    sides = sorted({side for side, _ in results})
-    ticks = [side for side in sides if side != 1000]
-    axes.set_xticks(ticks, [str(side) for side in ticks])
-    axes.set_yticks(
-        [0.3, 0.5, 1, 2, 5, 10, 20, 40], ["0.3", "0.5", "1", "2", "5", "10", "20", "40"]
-    )
     axes.set_xlabel("Points a side of the map")
     axes.set_ylabel("Time / bare transform [-]")
-    axes.tick_params(which="both", direction="in", top=True, right=True)
     figure.legend(loc="outside right upper")
-    figure.savefig(path, dpi=150)
+    return picture(figure, Path("spectrum.png"))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--sides", default=",".join(map(str, SIDES)))
-    parser.add_argument("--runs", type=int, default=9)
-    parser.add_argument("--output", type=Path, help="folder for spectrum.md and spectrum.png")
-    arguments = parser.parse_args()
+def make() -> timing.Report:
     results: dict[tuple[int, str], dict[str, float]] = {}
-    memory: dict[int, float] = {}
-    for side in map(int, arguments.sides.split(",")):
+    rows = []
+    for side in SIDES:
         for dtype in (np.float64, np.float32):
-            results[side, np.dtype(dtype).name] = measure(side, dtype, arguments.runs)
-        memory[side] = extra_maps(side)
+            kind = np.dtype(dtype).name
+            r = results[side, kind] = measure(side, dtype)
+            extra = f"{extra_maps(side):.2f}" if kind == "float64" else "-"
+            cells = [f"{r[name]:.2f}" if name in r else "-" for name in METHODS]
+            rows.append([f"{side}^2, {kind}", f"{r['bare [ms]']:.3g}", *cells, extra])
         print(side, "done", file=sys.stderr, flush=True)
-    print(table(results, memory), end="")
-    if arguments.output is not None:
-        arguments.output.mkdir(parents=True, exist_ok=True)
-        (arguments.output / "spectrum.md").write_text(table(results, memory))
-        draw(results, arguments.output / "spectrum.png")
+    text = timing.markdown(["map", "bare transform [ms]", *METHODS, "extra memory [maps]"], rows)
+    return timing.Report(text, {"spectrum.md": text.encode(), "spectrum.png": draw(results)})
 
 
 if __name__ == "__main__":
-    main()
+    timing.run(make, __doc__)

@@ -1,6 +1,6 @@
 // Exact over stated mu of PartialContact on 102 periodic maps by skewness and kurtosis, 12 sliding contacts each: worn,
 // flattened, peaked and heavy-tailed heights, phases that make them skewed, short waves that are gathered in places,
-// q1 / q0 of 8 and 32 (tests/benchmarks/skewed_heights.py).
+// q1 / q0 of 8 and 32 (tests/benchmarks/skewed_heights.py of commit 4a986d8c).
 #include "contact/heights.hpp"
 
 #include <cmath>
