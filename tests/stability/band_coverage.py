@@ -11,7 +11,6 @@ their median width over the truth, and by how much the ends move with the seed, 
 status 1 where a share is outside of 90 to 98 %.
 """
 
-import argparse
 import sys
 from collections.abc import Callable
 from functools import partial
@@ -20,6 +19,7 @@ from typing import Any
 import numpy as np
 from coverage_isotherms import SCENE, T_REF, Found, compare, measured, rubber_of
 from coverage_isotherms import trial as isotherms_trial
+from options import options
 
 import asperity
 
@@ -84,20 +84,13 @@ KINDS: dict[str, Callable[[int, int, int], Found]] = {
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("kinds", nargs="*", metavar="KIND", help=", ".join(KINDS))
-    parser.add_argument("--trials", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--samples", type=int, default=100)
-    arguments = parser.parse_args()
-    if unknown := set(arguments.kinds) - set(KINDS):
-        parser.error(f"KIND: {', '.join(sorted(unknown))}: must be among {', '.join(KINDS)}")
+    asked = options(__doc__, KINDS, trials=200, seed=1, samples=100)
     print("| input | lowest, highest share [%] | all [%] | width [%] | ends move [widths] |")
     print("| --- | --- | --- | --- | --- |")
     wrong = False
-    for kind in arguments.kinds or KINDS:
+    for kind in asked.kinds:
         trial = KINDS[kind]
-        result = [trial(arguments.seed, k, arguments.samples) for k in range(arguments.trials)]
+        result = [trial(asked.seed, k, asked.samples) for k in range(asked.trials)]
         held, width, moved = (np.array(column) for column in zip(*result, strict=True))
         share = 100 * held.mean(axis=0)
         wrong |= bool(((share < 90) | (share > 98)).any())

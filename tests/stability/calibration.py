@@ -11,13 +11,13 @@ errors, the standard error, and rms of points, of points left out and of the sam
 quarter of the trials goes to the measured scene.
 """
 
-import argparse
 import os
 import sys
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from options import options
 
 import asperity
 
@@ -120,22 +120,18 @@ def compared(tables: dict[str, Any], velocity: Any, trials: int, seed: int) -> N
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--trials", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--points", type=int, default=8)
-    arguments = parser.parse_args()
-    how = arguments.trials, arguments.seed
+    asked = options(__doc__, trials=200, seed=1, points=8)
+    how = asked.trials, asked.seed
     print("| scene | number | intervals that hold it [%] | off [errors] | error [%] |")
     print("| --- | --- | --- | --- | --- |")
     start = {"adhesion.shear_stress_pa": 5e5, "rubber.equilibrium_modulus_pa": 4.5e6}
     start["surface.q1_per_m"] = 3e5
-    recovered("law, series", MADE, start, np.geomspace(1e-5, 1, arguments.points), *how)
+    recovered("law, series", MADE, start, np.geomspace(1e-5, 1, asked.points), *how)
     if (data := os.environ.get("ASPERITY_DATA")) is None:
         return 0
-    tables, velocity = measured(Path(data)), np.geomspace(1e-6, 1e-2, arguments.points)
+    tables, velocity = measured(Path(data)), np.geomspace(1e-6, 1e-2, asked.points)
     start = {"adhesion.shear_stress_pa": 4e5, "surface.q1_per_m": 7e6}
-    fewer = max(arguments.trials // 4, 1), arguments.seed  # they take ten times as long
+    fewer = max(asked.trials // 4, 1), asked.seed  # they take ten times as long
     recovered("opd-1, epdm_70", tables, start, velocity, *fewer)
     compared(tables, velocity, *fewer)
     return 0

@@ -1,16 +1,10 @@
-"""How often the band on mu from noisy isotherms holds the true mu.
-
-    python tests/stability/coverage_isotherms.py [--trials 200] [--seed 1] [--samples 100]
+"""A band on mu from noisy isotherms beside the true mu: a kind of tests/stability/band_coverage.py.
 
 A Prony series is the rubber, and its mu on a self-affine road is known. Each trial draws a series
 and a noise of 0.3 to 5 %, measures isotherms, builds a master curve, smooth or of points, and asks
-for the band of level 0.95 at five velocities. Printed: at each velocity the share of bands that
-hold the truth, the median width, and by how much the ends differ between two seeds. Exit status 1
-where a share is outside of 90 to 98 %.
+for the band of level 0.95 at five velocities.
 """
 
-import argparse
-import sys
 from typing import Any
 
 import numpy as np
@@ -81,26 +75,3 @@ def trial(seed: int, number: int, samples: int) -> Found:
     )
     truth = asperity.friction(ROAD, rubber, **SCENE).mu
     return compare(ROAD, build, truth, number, samples)
-
-
-def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--trials", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--samples", type=int, default=100)
-    arguments = parser.parse_args()
-    result = [trial(arguments.seed, k, arguments.samples) for k in range(arguments.trials)]
-    held, width, moved = (np.array(column) for column in zip(*result, strict=True))
-    for k, v in enumerate(SCENE["velocity"]):
-        print(
-            f"{v:.3g} m/s: {100 * held[:, k].mean():.1f} % of {len(held)} bands hold the true mu, "
-            f"median width {100 * np.median(width[:, k]):.1f} % of it, ends move by "
-            f"{np.median(moved[:, k]):.2f} widths (median) with the seed"
-        )
-    share = held.mean(axis=0)
-    print(f"all: {100 * held.mean():.1f} %")
-    return 1 if ((share < 0.9) | (share > 0.98)).any() else 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -12,12 +12,12 @@ median standard error, and the shares of fits with a roll-off and of scans witho
 status 1 where a share of the first two is outside of 90 to 98 %.
 """
 
-import argparse
 import sys
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from options import options
 
 import asperity
 
@@ -84,23 +84,14 @@ def fitted(scan: Any, window: Any, **band: float) -> tuple[float, float, bool]:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("generators", nargs="*", metavar="GENERATOR", help=", ".join(GENERATORS))
-    parser.add_argument("--crops", type=int, default=400)
-    parser.add_argument("--points", type=int, default=256)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
-    if unknown := set(arguments.generators) - set(GENERATORS):
-        parser.error(f"GENERATOR: {', '.join(sorted(unknown))}: must be among {list(GENERATORS)}")
+    asked = options(__doc__, GENERATORS, crops=400, points=256, seed=1)
     print("| map | window | periods | holds [%] | mean error | rms | stated | roll-off | no fit |")
     print("| --- | --- | --- | --- | --- | --- | --- | --- | --- |")
     wrong = False
-    for generator in arguments.generators or GENERATORS:
+    for generator in asked.kinds:
         for periods in PERIODS:
             result: dict[str, list[Any]] = {window: [] for window in WINDOWS}
-            for hurst, scan in scans(
-                generator, periods, arguments.points, arguments.crops, arguments.seed
-            ):
+            for hurst, scan in scans(generator, periods, asked.points, asked.crops, asked.seed):
                 for window in WINDOWS:
                     result[window].append((hurst, *fitted(scan, window)))
             for window in WINDOWS:

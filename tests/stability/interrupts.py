@@ -2,12 +2,11 @@
 
 python tests/stability/interrupts.py [--seconds 1] [CALL...]
 
-The signal waits a second, or less for calls that end sooner. Fails where one takes more than
+The signal waits --wait seconds, halved for calls that end sooner. Fails where one takes more than
 --seconds of processor time from the signal to KeyboardInterrupt; where the machine has little else
 to do that is the time which passes, and both are told. Wants 8 GB of memory.
 """
 
-import argparse
 import contextlib
 import os
 import signal
@@ -16,6 +15,7 @@ import time
 from collections.abc import Callable
 
 import numpy as np
+from options import options
 
 import asperity
 
@@ -125,19 +125,10 @@ def interrupted(run: Callable[[], object], wait: float) -> tuple[float, float] |
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser()
-    parser.add_argument("calls", nargs="*", metavar="CALL", help=", ".join(CALLS))
-    parser.add_argument("--seconds", type=float, default=1.0)
-    parser.add_argument(
-        "--wait",
-        type=float,
-        default=1.0,
-        help="seconds before the signal, halved for calls that end sooner",
-    )
-    args = parser.parse_args()
+    args = options(__doc__, CALLS, seconds=1.0, wait=1.0)
     signal.signal(signal.SIGINT, signal.default_int_handler)
     failed = False
-    for name in args.calls or CALLS:
+    for name in args.kinds:
         child = os.fork()  # gives back its memory
         if child == 0:
             run, wait, took = CALLS[name](), args.wait, None

@@ -7,7 +7,6 @@ width of linear bands over that of draws, the share of points where a note says 
 good enough, and how many times as fast linear bands are, in processor time, taken in turns.
 """
 
-import argparse
 import sys
 import time
 from typing import Any
@@ -16,6 +15,7 @@ import band_coverage
 import coverage_isotherms
 import numpy as np
 from coverage_isotherms import SCENE
+from options import options
 
 import asperity
 
@@ -34,18 +34,13 @@ def compared(spectrum: Any, rubber: Any, truth: Any, number: int, samples: int) 
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("kinds", nargs="*", metavar="KIND", help=", ".join(band_coverage.KINDS))
-    parser.add_argument("--trials", type=int, default=100)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--samples", type=int, default=100)
-    arguments = parser.parse_args()
+    asked = options(__doc__, band_coverage.KINDS, trials=100, seed=1, samples=100)
     band_coverage.compare = coverage_isotherms.compare = compared
     print("| input | held by draws [%] | by slopes [%] | width over width | noted [%] | times |")
     print("| --- | --- | --- | --- | --- | --- |")
-    for kind in arguments.kinds or band_coverage.KINDS:
+    for kind in asked.kinds:
         trial = band_coverage.KINDS[kind]
-        result = [trial(arguments.seed, k, arguments.samples) for k in range(arguments.trials)]
+        result = [trial(asked.seed, k, asked.samples) for k in range(asked.trials)]
         held, width, seconds, noted = (np.array(column) for column in zip(*result, strict=True))
         of_draws, of_slopes = 100 * held.mean(axis=(0, 2))
         low, middle, high = np.quantile(width[:, 1] / width[:, 0], [0.05, 0.5, 0.95])

@@ -2,8 +2,8 @@
 # The long runs, which .ci/run keeps a subset of: sh tests/stability/long.sh [STEP...], all of them by default.
 #   scenes       fifty thousand random scenes against GSL's adaptive integration, most with awkward fronts
 #   rings        ten thousand tables of rings, with Prony series and with master curves, against GSL likewise
-#   partial      PartialContact: the roots of ten thousand random scenes, the estimates of five thousand, and forty thousand
-#                points on tables against brute force
+#   partial      PartialContact: the roots of ten thousand random scenes; estimates against brute force, of seven thousand
+#                absurd scenes and on forty thousand points of tables
 #   heat         two thousand random scenes that heat themselves, against a tolerance of 1e-11, and a thousand of master curves
 #   gradients    slopes of mu on two thousand random scenes, against central differences
 #   maps         friction maps of two hundred random scenes, and five checked on a million points each;
@@ -59,7 +59,7 @@ rings() {
 
 partial() {
   "$python" tests/stability/random_roots.py --scenes 10000 &&
-    "$python" tests/stability/random_partial_contact.py --scenes 5000 &&
+    "$python" tests/stability/random_partial_tables.py --scenes 7100 --seed 11 --absurd 1 &&
     "$python" tests/stability/random_partial_tables.py --scenes 1500
 }
 

@@ -7,7 +7,6 @@ one line and the status 1 or 2, within a minute of this process's time and --gig
 Anything else, a traceback above all, is printed with the mutation and fails the run.
 """
 
-import argparse
 import contextlib
 import io
 import random
@@ -23,6 +22,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from options import options
 
 import asperity
 from asperity.cli.main import main as command
@@ -273,18 +273,13 @@ def run(kind: str, files: int, seed: int) -> int:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser()
-    parser.add_argument("kinds", nargs="*", metavar="KIND", help=f"of {', '.join(kinds())}")
-    parser.add_argument("--files", type=int, default=300, help="of each kind")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--gigabytes", type=float, default=4.0)
-    args = parser.parse_args()
+    args = options(__doc__, kinds(), files=300, seed=1, gigabytes=4.0)
     most = int(args.gigabytes * 2**30)
     resource.setrlimit(resource.RLIMIT_AS, (most, most))
     signal.signal(signal.SIGPROF, refuse)
     warnings.simplefilter("error")
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
-        wrong = sum(run(kind, args.files, args.seed) for kind in args.kinds or kinds())
+        wrong = sum(run(kind, args.files, args.seed) for kind in args.kinds)
     return int(wrong > 0)
 
 

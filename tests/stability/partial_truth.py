@@ -58,7 +58,14 @@ class Surface:
 class Truth:
     """mu_H and A / A0 of one surface and rubber at a velocity."""
 
-    def __init__(self, surface: Surface, rubber: Any, velocity: float, poisson_ratio: float = 0.5):
+    def __init__(
+        self,
+        surface: Surface,
+        rubber: Any,
+        velocity: float,
+        poisson_ratio: float = 0.5,
+        nodes: int = NODES,
+    ):
         self.compliance = 4 * (1 - poisson_ratio**2)
         factor = 2 / self.compliance**2
         measured = isinstance(rubber, asperity.MasterCurve)
@@ -73,7 +80,7 @@ class Truth:
         edges = np.unique(np.concatenate([surface.edges, knots]))
         edges = edges[(edges > surface.start) & (edges < surface.end)]
         edges = np.concatenate([[surface.start], edges, [surface.end]])
-        rule = gauss(NODES)
+        rule = gauss(nodes)
         y, weights, half = nodes_on(edges, rule)
         row = np.searchsorted(surface.places, (edges[:-1] + edges[1:]) / 2, side="right") - 1
         i1, i2 = integrals(velocity * np.exp(y))
@@ -99,11 +106,15 @@ class Truth:
         part = factor * window * (i2 / i2_at_end) ** 0.25 * weights * np.exp(-3 * z)
         self.tail = (part * i2).sum(), (part * i1).sum()
 
-    def at(self, pressure: float) -> tuple[float, float]:
+    def under(self, pressure: float) -> tuple[Any, Any]:
+        """Nodes and tail as `sums` takes them."""
         scale = pressure**-2
         g, weights, steepness, ratio, g1, end, excess = self.nodes
         nodes = (g * scale, weights * scale, steepness * scale, ratio, g1 * scale, end, excess)
-        tail = self.tail[0] * scale, self.tail[1] * scale
+        return nodes, (self.tail[0] * scale, self.tail[1] * scale)
+
+    def at(self, pressure: float) -> tuple[float, float]:
+        nodes, tail = self.under(pressure)
         kappa = by_kappa(nodes, tail)
         friction = self.compliance * pressure * sums(kappa, nodes, tail)[1]
         return friction, float(erf(0.5 / np.sqrt(kappa * nodes[4])))

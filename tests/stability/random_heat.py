@@ -11,12 +11,12 @@ Printed: how many results were compared, the errors over their estimates, the sc
 700 K or were not solved, and each scene that exceeded. Exit status 1 where one did.
 """
 
-import argparse
 import sys
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from options import options
 
 import asperity
 
@@ -160,12 +160,7 @@ def compute(seed: int, scene: int, *, rings: float = 0.0, curves: float = 0.0) -
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--scenes", type=int, default=2000)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--rings", type=float, default=0.1, help="share of roads that are tables")
-    parser.add_argument("--curves", type=float, default=0.0, help="share of measured rubbers")
-    given = parser.parse_args()
+    given = options(__doc__, scenes=2000, seed=1, rings=0.1, curves=0.0)
     untold: dict[str, int] = {}
     ratios: dict[float, list[float]] = {}
     exceeded = refused = several = 0

@@ -1,6 +1,6 @@
 """Random isotherms: shift factors and their standard deviations against the truth.
 
-    python tests/stability/random_isotherms.py [--sets 200] [--seed 1] [--family both]
+    python tests/stability/random_isotherms.py [FAMILY...] [--sets 200] [--seed 1]
 
 Rubbers are drawn as smooth spectra of relaxation times, as terms 1.5 or 2 decades apart, whose
 moduli are rippled, and as power laws; shift factors follow WLF or Arrhenius; 5 to 22 isotherms of
@@ -15,12 +15,12 @@ within 1.96 standard deviations, and the root mean square of error over deviatio
 where less than 95 % of the sets are in order or the share is outside of 90 to 98 %.
 """
 
-import argparse
 import sys
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from options import options
 
 import asperity
 
@@ -246,11 +246,7 @@ def summary(verdicts: list[Verdict]) -> tuple[float, float, str]:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--sets", type=int, default=200)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--family", choices=[*FAMILIES, "both"], default="both")
-    arguments = parser.parse_args()
+    asked = options(__doc__, FAMILIES, sets=200, seed=1)
     failed = False
     for noise in (0.0, 0.005, 0.01, 0.02):
         builds = [judge(rippled(noise, seed)) for seed in range(12 if noise else 1)]
@@ -258,11 +254,11 @@ def main() -> int:
         lost = sum(not v.in_order for v in builds)
         print(f"rippled, noise {noise}: worst error {worst:.2g}, {lost} of {len(builds)} lost")
         failed |= lost > 0
-    for family in FAMILIES if arguments.family == "both" else [arguments.family]:
+    for family in asked.kinds:
         verdicts, refused = [], 0
-        for number in range(arguments.sets):
+        for number in range(asked.sets):
             try:
-                verdict = judge(draw(family, arguments.seed, number))
+                verdict = judge(draw(family, asked.seed, number))
             except asperity.Error as error:
                 refused += 1
                 print(f"{family} {number}: {error}")

@@ -9,12 +9,12 @@ counted by their error; every map that is made must keep its max_error, and that
 Exit status 1 where one does not.
 """
 
-import argparse
 import sys
 from collections import Counter
 from typing import Any
 
 import numpy as np
+from options import options
 from random_scenes import draw_correction, draw_rubber, draw_surface, power
 
 import asperity
@@ -70,12 +70,7 @@ def compute(seed: int, number: int, points: int, tables: float) -> str:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--maps", type=int, default=100)
-    parser.add_argument("--points", type=int, default=10_000)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--tables", type=float, default=0.2)
-    asked = parser.parse_args()
+    asked = options(__doc__, maps=100, points=10_000, seed=1, tables=0.2)
     result: Counter[str] = Counter()
     for number in range(asked.maps):
         outcome = compute(asked.seed, number, asked.points, asked.tables)

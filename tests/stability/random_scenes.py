@@ -20,12 +20,12 @@ scenes that GSL has no truth for, the median of estimate over error where the la
 Exit status 1 where any scene failed.
 """
 
-import argparse
 import sys
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from options import options
 
 import asperity
 
@@ -309,25 +309,12 @@ def compute(
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--scenes", type=int, default=10000)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--tables", type=float, default=0.3)
-    parser.add_argument("--edges", type=float, default=0.0)
-    parser.add_argument("--rings", type=float, default=0.0)
-    parser.add_argument("--curves", type=float, default=0.0)
-    arguments = parser.parse_args()
+    asked = options(__doc__, scenes=10_000, seed=1, tables=0.3, edges=0.0, rings=0.0, curves=0.0)
+    shares = asked.tables, asked.edges, asked.rings, asked.curves
     ratios, exceeded, unsolved, untold = [], 0, 0, 0
-    for scene in range(arguments.scenes):
+    for scene in range(asked.scenes):
         try:
-            outcome = compute(
-                arguments.seed,
-                scene,
-                arguments.tables,
-                arguments.edges,
-                arguments.rings,
-                arguments.curves,
-            )
+            outcome = compute(asked.seed, scene, *shares)
         except NoTruth as error:
             untold += 1
             print(f"scene {scene}: no truth: {error}")
@@ -342,7 +329,7 @@ def main() -> int:
             exceeded += 1
             print(f"scene {scene}: {outcome}")
     print(
-        f"{arguments.scenes} scenes: estimate exceeded in {exceeded}, not converged {unsolved},"
+        f"{asked.scenes} scenes: estimate exceeded in {exceeded}, not converged {unsolved},"
         f" without a truth {untold}"
     )
     print(f"median of estimate over error: {np.median(ratios):.3g}, of {len(ratios)} scenes")

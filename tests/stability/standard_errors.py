@@ -9,11 +9,11 @@ mean taken out, of H and of the rms height, and that mean. Exit status 1 where a
 0.93 to 1.07.
 """
 
-import argparse
 import sys
 from typing import Any
 
 import numpy as np
+from options import options
 
 import asperity
 
@@ -52,16 +52,12 @@ def trial(seed: int, number: int, window: Any) -> tuple[float, float]:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("windows", nargs="*", metavar="WINDOW", help=", ".join(WINDOWS))
-    parser.add_argument("--trials", type=int, default=800)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
+    asked = options(__doc__, WINDOWS, trials=800, seed=1)
     print("| window | stated / scatter of H | of h_rms | mean of H [errors] | of h_rms |")
     print("| --- | --- | --- | --- | --- |")
     wrong = False
-    for window in arguments.windows or WINDOWS:
-        off = np.array([trial(arguments.seed, k, window) for k in range(arguments.trials)])
+    for window in asked.kinds:
+        off = np.array([trial(asked.seed, k, window) for k in range(asked.trials)])
         ratio, mean = 1 / off.std(axis=0), off.mean(axis=0)
         wrong |= bool(((ratio < 0.93) | (ratio > 1.07)).any())
         cells = " | ".join(f"{number:.2f}" for number in (*ratio, *mean))

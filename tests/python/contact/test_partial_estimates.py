@@ -13,7 +13,6 @@ from helpers.cases import case, long
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import partial_truth
-import random_partial_contact
 import random_partial_tables
 import random_roots
 
@@ -24,19 +23,12 @@ RUBBER = PronySeries(
     relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
 )
 # scenes of seed 11 whose estimates were exceeded, by up to 2000 times, before kinks of master
-# curves, rows that the window meets and the last step of the root were counted
+# curves, rows that the window meets and the last step of the root were counted: one in three
 EXCEEDED = [
-    23, 47, 86, 113, 127, 141, 273, 316, 321, 351, 380, 401, 420, 433, 478, 503, 510, 533, 610,
-    622, 655, 788, 807, 912, 929, 1041, 1058, 1088, 1142, 1258, 1309, 1313, 1485, 1561, 1623,
-    1651, 1703, 1747, 1800, 1867, 1874, 1878, 1898, 1941, 2024, 2028, 2060, 2140, 2150, 2232,
-    2237, 2364, 2406, 2461, 2551, 2576, 2716, 2753, 2815, 2873, 2936, 3027, 3101, 3141, 3153,
-    3174, 3247, 3283, 3297, 3298, 3336, 3411, 3441, 3515, 3587, 3632, 3717, 3738, 3862, 3911,
-    3919, 3980, 4012, 4132, 4133, 4138, 4141, 4165, 4182, 4192, 4262, 4300, 4561, 4649, 4703,
-    4725, 4745, 4794, 4813, 4832, 4860, 4876, 4885, 4904, 4930, 4974, 4977, 5019, 5057, 5065,
-    5073, 5096, 5134, 5168, 5220, 5234, 5249, 5257, 5321, 5324, 5402, 5479, 5572, 5583, 5592,
-    5802, 5846, 5866, 5886, 5902, 5903, 6119, 6171, 6201, 6269, 6289, 6342, 6366, 6426, 6442,
-    6482, 6500, 6506, 6507, 6620, 6666, 6672, 6677, 6772, 6803, 6855, 6864, 6906, 6943, 6949,
-    6972, 7046, 7069,
+    23, 113, 273, 351, 420, 503, 610, 788, 929, 1088, 1309, 1561, 1703, 1867, 1898, 2028,
+    2150, 2364, 2551, 2753, 2936, 3141, 3247, 3298, 3441, 3632, 3862, 3980, 4133, 4165, 4262, 4649,
+    4745, 4832, 4885, 4974, 5057, 5096, 5220, 5257, 5402, 5583, 5846, 5902, 6171, 6289, 6426, 6500,
+    6620, 6677, 6855, 6943, 7046,
 ]  # fmt: skip
 
 
@@ -54,40 +46,28 @@ def test_the_rule_has_one_root_where_faint_rows_are_stiff(scene, kind):
     result, q, c, rubber, velocity = random_roots.draw_parts(np.random.default_rng([1, scene]))
     assert result == kind
     rule = random_roots.rule_of(q, c, rubber, velocity)
-    loads = 10.0 ** np.arange(-2, 13, 0.5) / rule.g[-1]
-    result = [random_roots.scan(rule, load) for load in loads]
+    pressures = np.sqrt(rule.nodes[4] / 10.0 ** np.arange(-2, 13, 0.5))
+    result = [random_roots.scan(rule, load) for load in pressures]
     assert [len(roots) for roots, _, _ in result] == [1] * 30
     assert min(slope for _, slope, _ in result) > 0.2
     areas = asperity.contact_area(
         asperity.TabulatedSpectrum(wavenumber=q, density=c),
         rubber,
-        pressure=1 / np.sqrt(loads),
+        pressure=pressures,
         velocity=velocity,
         correction=RULE,
     )
     assert np.all(np.diff(np.log(areas)) > -1)  # loads fall by 10^(1/4) = e^0.58
-    kappa = np.exp([roots[0] for roots, _, _ in result])
-    same = np.array(
-        [
-            random_roots.share_and_integral(k * g)[0]
-            for k, g in zip(kappa, loads * rule.g[-1], strict=True)
-        ]
-    )
+    pairs = zip(result, pressures, strict=True)
+    same = [random_roots.area_of(rule, roots[0], load) for (roots, _, _), load in pairs]
     np.testing.assert_allclose(areas, same, rtol=0.02)
 
 
 def test_estimates_hold_where_they_were_exceeded():
     for scene in EXCEEDED:
         with case(scene=scene):
-            results = random_partial_contact.compute(11, scene, brute=False)
-            assert max(results.values()) <= 1
-
-
-@pytest.mark.parametrize("count", [20, long(300)])
-def test_estimates_of_random_scenes_hold_against_brute_force(count):
-    for scene in range(count):
-        with case(scene=scene):
-            assert max(random_partial_contact.compute(4, scene, brute=True).values()) <= 1
+            _, points = random_partial_tables.compute(11, scene, absurd=True)
+            assert all(excess <= 1 for _, excess in points)
 
 
 def test_brute_force_meets_the_reference(reference_table):
@@ -103,11 +83,13 @@ def test_brute_force_meets_the_reference(reference_table):
             assert result == pytest.approx([row["hysteresis"], row["contact_area"]], rel=1e-11)
 
 
-@pytest.mark.parametrize("count", [60, long(1500)])
-def test_estimates_hold_against_brute_force(count):
+@pytest.mark.parametrize(
+    ("count", "absurd"), [(40, False), (20, True), long(1500, False), long(300, True)]
+)
+def test_estimates_hold_against_brute_force(count, absurd):
     for scene in range(count):
         with case(scene=scene):
-            _, points = random_partial_tables.compute(2, scene)
+            _, points = random_partial_tables.compute(2, scene, absurd)
             assert all(excess <= 1 for _, excess in points)
 
 
@@ -121,7 +103,7 @@ def test_estimates_hold_beside_knots_that_nearly_meet(scene):
 
 
 def test_levels_of_rings_do_not_agree_by_chance_on_knots():
-    # by one change alone 42 of these points were off, by up to 42 times the estimate
+    # by one change alone 42 of 2000 such points were off, by up to 42 times the estimate
     rng = np.random.default_rng(2)
     w = np.sort(np.concatenate([[1e-3, 1e7], 10 ** rng.uniform(-3, 7, 138)]))
     noise = np.exp(0.03 * rng.standard_normal((2, 140)))
@@ -134,7 +116,7 @@ def test_levels_of_rings_do_not_agree_by_chance_on_knots():
     rings = asperity.TabulatedSpectrum(wavenumber=q, density=density)
     conditions = {
         "pressure": 1e12,  # complete contact
-        "velocity": np.geomspace(1.1e-3 / q[0], 9e6 / q[-1], 2000),
+        "velocity": np.geomspace(1.1e-3 / q[0], 9e6 / q[-1], 700),
         "correction": RULE,
     }
     best = asperity.friction(rings, curve, **conditions, rtol=1e-9)

@@ -29,7 +29,7 @@ constexpr double of_change_with_rings = 1;  // which scatter
 constexpr double least_error = 0.75;
 
 /// On panels the finer of two levels is off by two fifths of their difference at most, with PartialContact
-/// (tests/stability/ random_partial_contact.py, 1,600 points at each rtol). Levels may agree by chance, so that of the
+/// (tests/stability/random_partial_tables.py, 1,600 points at each rtol). Levels may agree by chance, so that of the
 /// tolerance something is taken at least, as with heat (heat/flash_solver.cpp).
 constexpr double least_on_panels = 1.0 / 30;
 constexpr std::size_t finest = 6;           // level of nodes of panels: more than doubles hold
