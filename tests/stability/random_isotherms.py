@@ -219,9 +219,9 @@ def build_of(sweeps: Sweeps) -> Any:
     return asperity.build_master_curve(isotherms, reference_temperature=sweeps.temperature[middle])
 
 
-def judge(sweeps: Sweeps) -> Verdict:
+def judge(sweeps: Sweeps, build: Any = None) -> Verdict:
     """The errors of the build."""
-    build = build_of(sweeps)
+    build = build_of(sweeps) if build is None else build
     middle = sweeps.temperature.size // 2
     error = build.log10_a_T - (sweeps.shift - sweeps.shift[middle])
     others = np.arange(error.size) != middle

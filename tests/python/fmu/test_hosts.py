@@ -109,19 +109,32 @@ def test_windows_gets_the_digits_of_the_map(files, asked, answers, tmp_path, fmi
     assert '"{another}" is that of another FMU' in other.stderr
 
 
+@pytest.fixture(scope="module")
+def tires(tmp_path_factory):
+    """The examples of a tire: by a map, and by an FMU of it."""
+    folder, options = tmp_path_factory.mktemp("tires"), ("-std=c++17", "-O1", *STRICT)
+    return [
+        compiled(
+            "g++",
+            EXAMPLES / name / "main.cpp",
+            *options,
+            f"-isystem{include}",
+            target=folder / name,
+        )
+        for name, include in (("brush_map", INCLUDE), ("brush_fmu", HEADERS))
+    ]
+
+
 @on_linux
 @pytest.mark.parametrize("heat", [False, True])
-def test_a_tire_by_an_fmu_is_that_by_its_map(road, tmp_path, heat):
+def test_a_tire_by_an_fmu_is_that_by_its_map(road, tires, tmp_path, heat):
     fmap = hot_map(293.15) if heat else road
     fmap.save(tmp_path / "road.fmap")
     export_fmu(fmap, tmp_path / "road.fmu", points=200)
     fmpy.extract(str(tmp_path / "road.fmu"), str(tmp_path / "road"))
-    options = ("-std=c++17", "-O2", *STRICT)
     forces = []
-    for name, include, at in (("brush_map", INCLUDE, "road.fmap"), ("brush_fmu", HEADERS, "road")):
-        source, target = EXAMPLES / name / "main.cpp", tmp_path / name
-        compiled("g++", source, *options, f"-isystem{include}", target=target)
-        ran = subprocess.run([target, tmp_path / at], capture_output=True, text=True, check=True)
+    for tire, at in zip(tires, ("road.fmap", "road"), strict=True):
+        ran = subprocess.run([tire, tmp_path / at], capture_output=True, text=True, check=True)
         rows = [line.split(",")[:3] for line in ran.stdout.splitlines()]
         assert rows[0] == ["slip", "force_over_load", "sliding_share"]
         forces.append(np.array(rows[1:], float))

@@ -79,12 +79,12 @@ def read_scene_of(fit, scene):
 
 
 def test_intervals_hold_the_truth(scene):
-    """docs/howto/calibrate.md has 200 draws; 20 of three numbers scatter by 3 % about 95 %."""
+    """docs/howto/calibrate.md has 200 draws; 10 of three numbers scatter by 4 % about 95 %."""
     held = []
-    for seed in range(20):
+    for seed in range(10):
         fit = fit_scene(scene(**TRUTH), points(scene, 0.05, seed), free=[*KEYS])
         held += [fit.lower[k] < TRUTH[n] < fit.upper[k] for k, n in KEYS.items()]
-    assert np.mean(held) > 0.86
+    assert np.mean(held) > 0.83
 
 
 def test_slopes_are_those_of_differences(scene):
