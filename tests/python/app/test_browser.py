@@ -266,21 +266,6 @@ def test_tabs_are_sessions_of_their_own_and_a_reload_finds_its(browser: Any, add
         one.context.close()
 
 
-def test_after_a_restart_the_old_address_is_refused_and_the_new_one_opens(browser: Any) -> None:
-    with served() as (old, _):
-        tab = Tab(browser, old)
-        port = re.search(r":(\d+)/", old)
-        assert port is not None
-    with served("--port", port[1]) as (new, _):
-        assert new != old
-        assert tab.page.goto(old).status == 403
-        assert "the address that its terminal shows" in tab.page.content()
-        assert tab.page.reload().status == 403
-        tab.page.goto(new)
-        tab.settled()
-    tab.context.close()
-
-
 @pytest.mark.parametrize("width", [390, 1280])
 def test_it_fits_the_width(browser: Any, address: str, width: int) -> None:
     tab = Tab(browser, address, width)

@@ -42,10 +42,10 @@ def test_the_error_estimate_is_kept_on_rings():
 
 def test_the_error_estimate_is_kept_on_rings_with_master_curves():
     outcomes = []
-    for scene in range(150):
+    for scene in range(80):
         with contextlib.suppress(random_scenes.NoTruth):
             outcomes.append(random_scenes.compute(8, scene, tables=0.2, rings=1, curves=0.8))
-    assert len(outcomes) > 140
+    assert len(outcomes) > 74
     assert [i for i, outcome in enumerate(outcomes) if not outcome.kept] == []
 
 
@@ -163,34 +163,10 @@ def test_the_error_estimate_is_kept_on_a_front(wavenumber, density, pressure, ve
 
 def test_the_error_estimate_is_kept_where_the_contact_is_whole():
     wavenumber, density = [1.14e4, 1.93e4, 9.25e5], [1.3e-25, 1.3e-25, 1.04e-30]
-    moduli = [
-        1.54e09,
-        3.89e04,
-        5.34e07,
-        1.26e04,
-        6.8e05,
-        2.87e09,
-        1.9e05,
-        1.17e06,
-        2.21e04,
-        1.2e05,
-        2.02e06,
-        1.7e04,
-    ]
-    times = [
-        6.63e-10,
-        2.1e-08,
-        0.156,
-        2.23,
-        0.000162,
-        2.1,
-        3.6,
-        0.000122,
-        0.00271,
-        0.518,
-        0.000266,
-        1.18e-10,
-    ]
+    moduli = [1.54e09, 3.89e04, 5.34e07, 1.26e04, 6.8e05, 2.87e09]
+    moduli += [1.9e05, 1.17e06, 2.21e04, 1.2e05, 2.02e06, 1.7e04]
+    times = [6.63e-10, 2.1e-08, 0.156, 2.23, 0.000162, 2.1]
+    times += [3.6, 0.000122, 0.00271, 0.518, 0.000266, 1.18e-10]
     options = {"pressure": 5.75e7, "velocity": 0.0217, "poisson_ratio": 0.27}
     rubber = asperity.PronySeries(equilibrium_modulus=1.66e6, moduli=moduli, relaxation_times=times)
     surface = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=density)

@@ -14,6 +14,7 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.demo import input_files
+from asperity.report.drawings import Drawings, Figure
 from helpers.accessible import violations
 from helpers.scenes import ADHESION, RUBBER, SURFACE
 
@@ -47,6 +48,12 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
         run = ["report", "a & <b>.toml", "sticky.toml", "--output", "both.html"]
         assert main(run) == 0
     return folder
+
+
+@pytest.fixture
+def undrawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures are seconds each; those of `place` are drawn."""
+    monkeypatch.setattr(Drawings, "_figure", lambda *_: Figure("", "", ""))
 
 
 @pytest.fixture(scope="module")
@@ -154,7 +161,7 @@ def test_the_comparison_tells_inputs_and_differences(tree: Element) -> None:
 
 
 def test_python_writes_the_same_bytes(
-    place: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    undrawn: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("SOURCE_DATE_EPOCH", "86400")
@@ -171,7 +178,7 @@ def test_python_writes_the_same_bytes(
     assert Path("one.html").read_bytes() == one
 
 
-def test_a_number_without_a_digit_of_its_own_is_told(tmp_path: Path) -> None:
+def test_a_number_without_a_digit_of_its_own_is_told(undrawn: None, tmp_path: Path) -> None:
     """Friction without loss: mu is zero, and no ratio to it is written."""
     (tmp_path / "elastic.toml").write_text(
         SURFACE
