@@ -1,8 +1,11 @@
 """Reference tables, each row with its own tolerance, and a folder to run the shell command in."""
 
 import csv
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # tests run side by side on all cores
 
 import numpy as np
 import pytest

@@ -103,36 +103,3 @@ def kinks_friction() -> Iterator[Case]:
         lambda: friction(asperity.MasterCurve(**rows), pressure=pressure).mu,
         exact.mu,
     )
-
-
-@row(
-    "frequencies outside of the table",
-    "the last row is carried on without a word",
-    naive="numpy.interp, which clamps",
-    truth="refused: OutOfRange",
-)
-def outside() -> Iterator[Case]:
-    rows = curve(20)
-    w, storage = rows["angular_frequency"], rows["storage_modulus"]
-    yield (
-        lambda: np.interp(1e12, w, storage),
-        lambda: friction(asperity.MasterCurve(**rows), velocity=1e6).mu,
-        asperity.OutOfRange,
-    )
-
-
-@row(
-    "a power law beyond the table on which |E|^2 underflows",
-    "0 over 0 in what looks for the next digit",
-    naive="|E|^2 at the end of the decade",
-    truth="refused: InvalidInput",
-)
-def underflow() -> Iterator[Case]:
-    rows = {"storage_modulus": [1e-130, 1.0], "loss_modulus": [1e-130, 1.0]}
-    yield (
-        lambda: (1e-130 * 0.1**130) ** 2,
-        lambda: asperity.MasterCurve(
-            angular_frequency=[1.0, 10.0], extrapolation="power-law", **rows
-        ).angular_integrals(0.2)[0],
-        asperity.InvalidInput,
-    )

@@ -200,18 +200,6 @@ def short_interval() -> Iterator[Case]:
 
 
 @row(
-    "wavenumbers outside of the table",
-    "the last row is carried on without a word",
-    naive="numpy.interp, which clamps",
-    truth="refused: OutOfRange",
-)
-def outside() -> Iterator[Case]:
-    q, c = law(5)
-    spectrum = asperity.TabulatedSpectrum(wavenumber=q, density=c)
-    yield lambda: np.interp(1e9, q, c), lambda: spectrum.at(1e9), asperity.OutOfRange
-
-
-@row(
     "zeros after a trace: a ramp where G is 1e-9 already",
     "G is not 0 there, and yet nothing before the ramp matters",
     naive="numpy.interp of C in q, log-trapezoid of 1000 points",

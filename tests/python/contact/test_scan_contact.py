@@ -185,6 +185,10 @@ def test_area_and_contributions() -> None:
 
 
 def test_a_map_that_is_no_sample_of_the_spectrum_is_refused() -> None:
+    lost = np.random.default_rng(1).random(SCAN.heights.shape) < 1 / 3
+    holed = asperity.HeightMap(np.where(lost, np.nan, SCAN.heights), pixel_size=SCAN.pixel_size)
+    with pytest.raises(asperity.InvalidInput):
+        friction(0.01, correction=asperity.ScanContact(holed))
     with pytest.raises(asperity.InvalidInput, match=r"mean square slope .* factor of 2"):
         asperity.friction(SPECTRUM.scaled(3), RUBBER, pressure=2e5, velocity=0.1, correction=EXACT)
     far = asperity.SelfAffineSpectrum(rms_height=1e-6, hurst=0.8, q0=1e6, q1=1e7)

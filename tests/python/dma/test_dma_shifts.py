@@ -50,16 +50,16 @@ def random_build(family, number):
 @pytest.mark.parametrize("family", FAMILIES)
 def test_random_isotherms(family):
     """tests/stability/random_isotherms.py runs 200 sets of each family."""
-    verdicts = [judge(*random_build(family, number)) for number in range(40)]
+    verdicts = [judge(*random_build(family, number)) for number in range(24)]
     order, held, words = summary(verdicts)
-    assert order >= 38 / 40, words
+    assert order >= 23 / 24, words
     assert 0.9 < held < 0.98, words
 
 
 def test_a_step_across_a_gap_has_an_error_that_holds():
     """Isotherms that do not overlap and meet by noise alone: most are refused."""
     built = 0
-    for number in range(200):
+    for number in range(120):
         sweeps, k = gapped(1, number)
         try:
             build = build_of(sweeps)
@@ -71,7 +71,7 @@ def test_a_step_across_a_gap_has_an_error_that_holds():
         error = way @ (build.log10_a_T - sweeps.shift)
         assert abs(error) < 3 * np.sqrt(way @ build.covariance @ way), number
         assert build.undetermined.any()
-    assert 5 < built < 20
+    assert 3 < built < 12
 
 
 @pytest.mark.parametrize("number", [88, 100])
@@ -88,7 +88,7 @@ def test_two_processes_that_do_not_superpose_are_noted():
         return any(note.code == "isotherms-off-curve" for note in build.notes)
 
     assert sum(noted(build_of(two_processes(3, number))) for number in range(20)) >= 9
-    assert sum(noted(random_build("spectra", number)[1]) for number in range(40)) <= 2
+    assert sum(noted(random_build("spectra", number)[1]) for number in range(24)) <= 1
 
 
 @pytest.mark.parametrize("reference_temperature", [T_REF, 291.0])

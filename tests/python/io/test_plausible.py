@@ -77,24 +77,18 @@ def slid(pressure, velocity):
 PLAUSIBLE = {
     "the article's asphalt and rubber": {},
     "asphalt up to atoms": {"surface": ASPHALT.replace("1e6", "1e10")},
-    "sandpaper, cut where its slope says": {"surface": ASPHALT + "slope_cutoff = 1.3"},
     "dust": {"surface": ASPHALT + "contamination_size_m = 2e-5"},
     "a polished wafer": {"surface": law(2e-10, 6e6, 6e9)},
     "a road of 3 m with cm heights": {"surface": law(0.02, 2.1, 1e4)},
-    "a gel of 10 kPa under 20 Pa": {"rubber": prony(1e4), "conditions": slid(20, 1e-4)},
     "a hydrogel's shear stress": {
         "rubber": prony(1e4),
         "conditions": slid(200, 1e-4),
         "more": "[adhesion]\nshear_stress_pa = 30",
     },
-    "the softest silicone": {"rubber": prony(5e4, 5e4, 1e-3), "conditions": slid(50, 1)},
     "rubber as glass, at -80 C": {"rubber": prony(3e9)},
     "a melt, which relaxes to nothing": {"rubber": prony(0, "5e5, 1e3", "1e-2, 1e15")},
     "creep": {"conditions": slid(81e3, "{from = 1e-9, to = 1, points = 3}")},
-    "racing": {"conditions": slid(3e5, 100)},
-    "a truck tyre, an aircraft's": {"conditions": slid("[8e5, 2e6]", 60)},
     "a hydraulic seal": {"conditions": slid(4e7, 0.5)},
-    "a light touch": {"conditions": slid(300, 0.5)},
 }
 
 
@@ -117,13 +111,11 @@ def silent(caplog):
     assert caplog.messages == []
 
 
-@pytest.mark.parametrize(
-    ("pixel_size", "rms"), [(2e-9, 1e-9), (1e-7, 1e-9), (5e-6, 3e-5), (1e-3, 2e-4), (2e-2, 3e-2)]
-)
+@pytest.mark.parametrize(("pixel_size", "rms"), [(2e-9, 1e-9), (5e-6, 3e-5), (2e-2, 3e-2)])
 @pytest.mark.usefixtures("silent")
 def test_scans_from_microscopes_to_roads(tmp_path, pixel_size, rms):
     """1 um of a force microscope with nanometres, 1 m to 10 m of road with centimetres."""
-    write_scan(tmp_path, rms, side=512 if pixel_size < 1e-2 else 256)
+    write_scan(tmp_path, rms, side=256)
     for unit, factor in (("m", 1.0), ("um", 1e6), ("nm", 1e9)):
         np.save(tmp_path / "in.npy", factor * np.load(tmp_path / "scan.npy"))
         asperity.read_surface(tmp_path / "in.npy", pixel_size=pixel_size, unit=unit)
@@ -150,7 +142,7 @@ def test_sweeps_of_instruments():
     asperity.read_isotherms(files, **POLYISOPRENE)
 
 
-@pytest.mark.parametrize(("given", "unit"), [(-80, "c"), (250, "c"), (193.15, "k"), (523.15, "k")])
+@pytest.mark.parametrize(("given", "unit"), [(-80, "c"), (523.15, "k")])
 def test_a_rubber_from_minus_80_to_250_degrees(tmp_path, given, unit):
     (tmp_path / "a_t.csv").write_text("temperature_k,log10_a_t\n150,9\n293.15,0\n530,-6\n")
     more = f'shift = "a_t.csv"\ntemperature_{unit} = {given}\nreference_temperature_c = 20'
@@ -165,12 +157,10 @@ PEAKS = "[correction]\nkind = 'local-peaks'\nz_max_m = 3e-4\nheights_m = [100, 2
 ABSURD = [
     ("surface", ("265.7e-6", "265.7"), "[surface] rms_height_m", "um"),
     ("surface", ("265.7e-6", "0.2657"), "[surface] rms slope", ""),
-    ("surface", (ASPHALT, law(265.7e-6, 2e-3, 1)), "[surface] q1_per_m", "1/um"),
     ("surface", (ASPHALT, SCANNED.replace("5e-6", "5")), "[surface] pixel_size_m", "um"),
     ("surface", (ASPHALT, SCANNED.replace('"um"', '"m"')), "[surface] unit", "um"),
     ("surface", ("1e6", "1e6\ncontamination_size_m = 20"), "[surface] contamination_size_m", "um"),
     ("conditions", ("81e3", "0.081"), "[conditions] pressure_pa", "MPa"),
-    ("conditions", ("81e3", "[0.08, 0.4]"), "[conditions] pressure_pa", "MPa"),
     ("conditions", ("1e-2", "1e4"), "[conditions] velocity_m_s", "mm/s"),
     (
         "rubber",
@@ -178,32 +168,16 @@ ABSURD = [
         "[conditions] pressure_pa",
         "moduli in MPa",
     ),
-    (
-        "rubber",
-        (RUBBER, prony(3e-3, "0.01, 0.1, 1", "1e-2, 1e-4, 1e-6")),
-        "[rubber] equilibrium_modulus_pa and moduli_pa together",
-        "MPa",
-    ),
     ("rubber", ("3e6", "3e15"), "[rubber] equilibrium_modulus_pa", ""),
-    ("rubber", ("1e9", "3e15"), "[rubber] equilibrium_modulus_pa and moduli_pa together", ""),
     ("rubber", (RUBBER, ISOTHERMS + "temperature_k = 25"), "[rubber] temperature_k", "C"),
-    (
-        "rubber",
-        (RUBBER, ISOTHERMS + "temperature_k = 293\nreference_temperature_k = -10"),
-        "[rubber] reference_temperature_k",
-        "C",
-    ),
-    ("rubber", (RUBBER, ISOTHERMS + "temperature_c = 725"), "[rubber] temperature_c", ""),
     ("rubber", (RUBBER, ISOTHERMS + "temperature_c = -200"), "[rubber] temperature_c", ""),
     ("more", ("", "[adhesion]\nshear_stress_pa = 8.3e-3"), "[adhesion] shear_stress_pa", "GPa"),
     ("more", ("", PEAKS), "[correction] heights_m", "um"),
 ]
 UNUSUAL = [
     ("surface", (ASPHALT, law(265.7e-6, 2, 1000)), "[surface] q1_per_m", "1/mm"),
-    ("conditions", ("81e3", "2.5"), "[conditions] pressure_pa", "bar"),
     ("conditions", ("81e3", "81"), "[conditions] pressure_pa", "kPa"),
     ("conditions", ("1e-2", "200"), "[conditions] velocity_m_s", "km/h"),
-    ("conditions", ("1e-2", "1000"), "[conditions] velocity_m_s", "mm/s"),
     ("more", ("", "[adhesion]\nshear_stress_pa = 8.3"), "[adhesion] shear_stress_pa", "MPa"),
     ("rubber", ("3e6", "3"), "[rubber] equilibrium_modulus_pa", "MPa"),
 ]
@@ -271,9 +245,7 @@ CALLS = {  # factors of heights, wavenumbers, moduli and pressure, and what the 
     "as it should be": (1, 1, 1, 1, None),
     "heights in m that are in um": (1e-6, 1, 1, 1, "rms_slope"),
     "moduli and pressure in MPa": (1, 1, 1e-6, 1e-6, "largest modulus"),
-    "pressure in MPa": (1, 1, 1, 1e-6, "pressure"),
     "moduli in MPa": (1, 1, 1e-6, 1, "largest modulus"),
-    "a road of 160 m": (1, 2e-5, 1, 1, "rms_slope"),
 }
 
 
