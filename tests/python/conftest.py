@@ -46,9 +46,9 @@ def reference(name: str) -> list[dict[str, object]]:
 
 
 def value_of(column: str, cell: str) -> object:
-    if column in ("case", "form", "kind", "residence"):
+    if column in ("case", "form", "kind", "residence", "extrapolation"):
         return cell
-    if column in LISTS:
+    if column in LISTS or ";" in cell:
         return np.array([float(x) for x in cell.split(";") if x])
     return float(cell) if cell else None
 

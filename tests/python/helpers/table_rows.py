@@ -22,7 +22,13 @@ def master_curve(row):
         angular_frequency=row["table_frequency"],
         storage_modulus=row["table_storage"],
         loss_modulus=row["table_loss"],
+        extrapolation=row.get("extrapolation") or None,
     )
+
+
+def rubber(row):
+    """A Prony series, or the master curve where the row has a table."""
+    return master_curve(row) if row["table_frequency"].size else prony(row)
 
 
 def close(row, names, result, scale=None):

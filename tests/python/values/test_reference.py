@@ -5,7 +5,7 @@ import pytest
 
 import asperity
 from asperity import AffineShift, PronySeries, SelfAffineSpectrum
-from helpers.table_rows import close, master_curve, prony, self_affine, tabulated
+from helpers.table_rows import close, master_curve, prony, rubber, self_affine, tabulated
 
 
 @pytest.mark.reference("prony")
@@ -56,6 +56,30 @@ def test_separations_of_both_readings(row, reading):
         close(row, [column], [value], scale=max(row["rms_height"], abs(row[column])))
 
 
+@pytest.mark.reference("gaussian_moment")
+def test_separation_at_the_load_of_its_moment(row):
+    h, q0 = 1e-4, 1e3
+    stiffness = 2 * q0 * h / (3 * np.pi**2 * np.sqrt(3 * np.sqrt(2)))
+    load = stiffness * np.exp(row["log_moment"])
+    if load < 1e-300:
+        pytest.skip("no double holds such a load")
+    result = asperity.separation(pressure=load, effective_modulus=1.0, rms_height=h, q0=q0)
+    assert result.effective / h == pytest.approx(row["t"], rel=1e-12, abs=1e-12)
+
+
+def test_one_peak_above_a_crowd_carries_its_load():
+    """Where the crowd is just reached, Newton's steps jump to and fro over it."""
+    h, q0, pressure = 265.7e-6, 2000.0, 1e3
+    peaks = np.append(0, -1e-3 * (1 + 10 ** (-np.arange(1, 303) / 100)))  # no multiple of four
+    stiffness = 2 * q0 / (3 * np.pi**2 * np.sqrt(3 * np.sqrt(2) * h))
+    modulus = 10 ** (3 + np.arange(2000) / 300)
+    d = asperity.separation(
+        pressure=pressure, effective_modulus=modulus, rms_height=h, q0=q0, peaks=peaks
+    ).effective
+    carried = (np.maximum(0, peaks - d[:, None]) ** 1.5).mean(axis=1)
+    np.testing.assert_allclose(modulus * stiffness * carried, pressure, rtol=1e-12)
+
+
 @pytest.mark.reference("spectrum")
 def test_self_affine_spectrum(row):
     spectrum = self_affine(row)
@@ -100,6 +124,13 @@ def test_area_with_s_inside_g_that_knows_the_band(row, rtol):
     close({**row, "rtol": max(rtol, row["rtol"])}, ["contact_area"], [result])
 
 
+def test_nayaks_parameter_by_hand():
+    table = asperity.TabulatedSpectrum(wavenumber=[1, 2, 3], density=[1, 1, 0])
+    m0, m2 = 3 / 2 + 7 / 6, 15 / 4 + 3 * 65 / 4 - 211 / 5
+    m4 = 63 / 6 + 3 * 665 / 6 - 2059 / 7
+    assert table.nayak_parameter == pytest.approx(1.5 * m0 * m4 / m2**2, rel=1e-14)
+
+
 @pytest.mark.parametrize("rtol", [1e-4, 1e-12])
 @pytest.mark.reference("implicit_s_factor")
 def test_area_with_s_of_the_area_that_results(row, rtol):
@@ -125,6 +156,34 @@ def test_pressure_distribution_at_a_known_g(row):
         rtol=1e-12,
     )
     close(row, ["density_times_pressure"], [density * pressure])
+
+
+@pytest.mark.reference("friction_measured")
+def test_friction_on_measured_spectra(row):
+    """Zeros, jumps, fronts in the middle of the band, moduli beyond their table."""
+    parts = tabulated(row), rubber(row)
+    at = {name: row[name] for name in ("pressure", "velocity", "poisson_ratio")}
+    plain = asperity.friction(*parts, **at)
+    close(row, ["hysteresis", "contact_area"], [plain.hysteresis, plain.contact_area])
+    assert plain.extrapolated_share == pytest.approx(row["extrapolated_share"] or 0, abs=1e-4)
+    correction = asperity.SFactor(gamma=row["gamma"], applies_to="both")
+    with_s = asperity.friction(*parts, **at, correction=correction)
+    close(row, ["hysteresis_s", "contact_area_s"], [with_s.hysteresis, with_s.contact_area])
+
+
+def test_a_front_on_a_ramp_from_zero_and_a_narrow_band_keep_their_digits():
+    one_term = PronySeries(equilibrium_modulus=1e6, moduli=[1e9], relaxation_times=[1e-6])
+
+    def mu(wavenumber, density):
+        road = asperity.TabulatedSpectrum(wavenumber=wavenumber, density=density)
+        return asperity.friction(road, one_term, pressure=1e5, velocity=1.0).mu
+
+    # graded panels from the start of the ramp, 9 digits
+    assert mu([1e3, 1.3e3], [0, 2.5e-5]) == pytest.approx(4664.89356, rel=2e-9)
+    # flat over a relative width of d: G is the same for every d at C ~ 1 / d
+    widths = [1e3 * (1 + d) - 1e3 for d in (1e-8, 1e-9, 1e-11, 1e-13)]
+    first, *others = (mu([1e3, 1e3 + width], [1e-8 / width] * 2) for width in widths)
+    assert others == pytest.approx([first] * 3, rel=1e-7)
 
 
 class FrictionTable:
