@@ -10,12 +10,6 @@ from scipy.special import erf
 from truth import Integrals
 
 
-def density(rms_height: float, hurst: float, q0: float) -> Any:
-    """Eq. 12's power law with the amplitude of an endless band."""
-    amplitude = rms_height**2 * hurst / math.pi / q0**2
-    return lambda q: amplitude * (q / q0) ** (-2 * (hurst + 1))
-
-
 def band_density(rms_height: float, hurst: float, q0: float, q1: float) -> Any:
     """The same with the amplitude of its band."""
     amplitude = rms_height**2 * hurst / math.pi / q0**2 / (1 - (q1 / q0) ** (-2 * hurst))

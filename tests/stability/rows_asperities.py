@@ -69,16 +69,6 @@ def deep() -> Iterator[Case]:
 
 
 @row(
-    "IGW's integral at d = +30 rms",
-    "1e-202: below every absolute tolerance",
-    naive="SciPy quad over (d, inf), fsolve from the mean plane",
-    truth="parabolic cylinder function, mpmath",
-)
-def far() -> Iterator[Case]:
-    yield separation(30.0)
-
-
-@row(
     "IGW at sigma0/E* = 1e-12",
     "quad and fsolve stop at 1e-8, and that is more than there is",
     naive="SciPy quad over (d, inf), fsolve from the mean plane",
@@ -189,37 +179,3 @@ def nearly_full() -> Iterator[Case]:
     z_max, z_min = 4 * h, (t - 1e-6) * h
     exact = (4 - t + 1e-6) / (4 - t)
     yield lambda: 2.0, lambda: igw(pressure, z_max, z_min).shift_factor, exact
-
-
-@row(
-    "fewer than three peaks",
-    "one peak is its own mean: z_max / 0",
-    naive="z_max / (z_max - <h_peaks>)",
-    truth="refused: InvalidInput",
-)
-def few_peaks() -> Iterator[Case]:
-    for heights in ([1e-4], [1e-4, 1e-4]):
-        z = np.array(heights)
-        yield (
-            lambda z=z: float(z.max() / (z.max() - z.mean())),
-            lambda z=z: asperity.LocalPeaks(z).shift_factor,
-            asperity.InvalidInput,
-        )
-
-
-@row(
-    "p_T to 1: peaks 1e-9 above the mean plane",
-    "p_T - 1 is what the mean of the peaks is worth",
-    naive="the mean of float32 heights",
-    truth="closed form",
-    fails=1e-8,
-)
-def shallow_peaks() -> Iterator[Case]:
-    heights = np.array([1e-3, -1e-3 + 3e-12, 0.0]) + 0.0
-    below = sum(1e-3 - z for z in map(float, heights)) / 3
-    exact = 1e-3 / below - 1
-    yield (
-        lambda: float(heights.astype("f4").max() / np.mean(1e-3 - heights.astype("f4")) - 1),
-        lambda: asperity.LocalPeaks(heights).shift_factor - 1,
-        exact,
-    )

@@ -5,7 +5,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import mpmath
-import naive
 import numpy as np
 import truth
 from rows import Case, row
@@ -21,22 +20,6 @@ from rows_contact import (
 )
 
 import asperity
-
-
-@row(
-    "H = 0.01",
-    "the amplitude of an endless band, q1 left out of the norm (Eq. 12 as printed)",
-    naive="C = h^2 H / (pi q0^2) (q/q0)^(-2(H+1))",
-    truth="closed form, mpmath",
-)
-def low_hurst() -> Iterator[Case]:
-    given = {**ROAD, "hurst": 0.01, "q1": 1e5}
-    ratio = mpmath.mpf(given["q1"]) / mpmath.mpf(given["q0"])
-    h, hurst, q0 = (mpmath.mpf(given[k]) for k in ("rms_height", "hurst", "q0"))
-    norm = 1 - ratio ** (-2 * hurst)
-    exact = float(h**2 * hurst / (mpmath.pi * q0**2 * norm))
-    printed = naive.density(given["rms_height"], 0.01, given["q0"])
-    yield lambda: printed(given["q0"]), lambda: surface(**given).at(given["q0"]), exact
 
 
 @row(

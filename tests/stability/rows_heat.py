@@ -144,30 +144,6 @@ def runaway() -> Iterator[Case]:
 
 
 @row(
-    "heat at the glass transition: whether the state is the only one",
-    "the middle of three states is unstable: no iteration finds it, a scan of mu misses it",
-    naive="states that damped iteration reaches from 0, 5, 20, 50 and 100 K",
-    truth=TRUTH,
-    allowed=0,
-    fails=0.3,
-)
-def states() -> Iterator[Case]:
-    scene = Scene("glass_243 200000 Pa 10 m/s 1")
-
-    def naive() -> float:
-        ends = set()
-        for start in (0.0, 5.0, 20.0, 50.0, 100.0):
-            theta: Any = np.full_like(scene.q, start)
-            for _ in range(400):
-                mu, rise = scene.step(theta)
-                theta = theta + 0.2 * (rise - theta)
-            ends.add(round(math.log10(mu), 1))
-        return float(len(ends))
-
-    yield naive, lambda: float(scene.ours().branches), 3.0
-
-
-@row(
     "heat kernel, q = 3e4 and 1e6 1/m at 1 mm/s",
     "exp(x^2) overflows before erfc(x) takes it back",
     naive="the kernel with exp(x^2) erfc(x), summed over 400 points of sqrt(tau)",
@@ -208,38 +184,3 @@ def deep_kernel() -> Iterator[Case]:
             ),
             float(result["g"]),
         )
-
-
-@row(
-    "heat that rubber does not stand",
-    "with a long contact and little of the surface touching the rise passes 700 K",
-    naive="the rise at q1 after one pass, as if it held [K]",
-    truth="the rubber is gone",
-    fails=0,
-)
-def burning() -> Iterator[Case]:
-    scene = Scene("full 200000 Pa 10 m/s 1")
-    burning = asperity.Heating(
-        density=1200,
-        heat_capacity=1650,
-        conductivity=0.01,
-        contact_diameter=0.1,
-        macro_area=1e-3,
-    )
-
-    def naive() -> float:
-        return float(scene.step(np.zeros_like(scene.q))[1][-1])
-
-    def ours() -> float:
-        result = asperity.friction(
-            scene.road,
-            scene.rubber,
-            pressure=5e6,
-            velocity=30.0,
-            temperature=293.15,
-            shift=LAW,
-            heating=burning,
-        )
-        return float(result.temperature)
-
-    yield naive, ours, asperity.OutOfRange

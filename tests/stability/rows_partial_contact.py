@@ -128,34 +128,3 @@ def soft_end() -> Iterator[Case]:
             partial(ours, made, given),
             float(given["mu"]),
         )
-
-
-@row(
-    "partial contact near complete contact, sigma0 = 1e16 Pa",
-    "kappa is the root of a difference of two variances, both 2 G, and 1 + 2 G is 1",
-    naive="the rule's condition as it is written, brentq in ln kappa",
-    truth="brute force, A/A0 = 1",
-    allowed=1e-9,
-)
-def complete() -> Iterator[Case]:
-    hurst, q0, q1, load, speed = 0.8, 2e3, 1e5, 1e16, 1e-2
-    series = (1e6, [1e6, 1e7, 1e8], [1e-1, 1e-3, 1e-5])
-    rubber = truth.prony(*series)
-    q = np.geomspace(q0, q1, 4000)
-    c = naive.band_density(1e-4, hurst, q0, q1)(q)
-
-    def found() -> float:
-        result = asperity.friction(
-            asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=hurst, q0=q0, q1=q1),
-            asperity.PronySeries(
-                equilibrium_modulus=series[0], moduli=series[1], relaxation_times=series[2]
-            ),
-            pressure=load,
-            velocity=speed,
-            correction=asperity.PartialContact(),
-            rtol=1e-10,
-        )
-        return float(result.hysteresis)
-
-    exact = truth.contact(truth.self_affine(1e-4, hurst, q0, q1), rubber, load, speed).mu
-    yield partial(naive.partial_contact, c, rubber, q, q1, load, speed), found, exact

@@ -39,21 +39,6 @@ def brute(integrals: Any, pressure: float = 81e3, velocity: float = 1e-2) -> Any
 
 
 @row(
-    "w tau = 1e-15: I1",
-    "1 - 1/sqrt(1 + (w tau)^2) cancels below 1e-8",
-    naive="the closed form as it is written down",
-    truth="mpmath, 50 digits",
-)
-def slow() -> Iterator[Case]:
-    x = 1e-30
-    yield (
-        lambda: 2 * math.pi * 1e6 * (1 - 1 / math.sqrt(1 + x)) / 1e-15,
-        lambda: series(1e5, [1e6], [1.0]).angular_integrals(1e-15)[0],
-        truth.angular(1e5, [1e6], [1.0], 1e-15)[0],
-    )
-
-
-@row(
     "w tau = 1e-15: E' of a liquid",
     "E' = E_0 - E/(1 + (w tau)^2) cancels",
     naive="from the glassy modulus down",
@@ -64,22 +49,6 @@ def liquid() -> Iterator[Case]:
         lambda: 1e6 - 1e6 / (1 + 1e-30),
         lambda: series(0.0, [1e6], [1.0]).modulus(1e-15).real,
         1e6 * 1e-30,
-    )
-
-
-@row(
-    "w tau = 1e15: I1",
-    "Im E(w cos phi) has two peaks 1e-15 wide; their foot is all there is between them",
-    naive="trapezoid of 1000 points in phi",
-    truth="mpmath, 50 digits",
-)
-def fast() -> Iterator[Case]:
-    rubber = series(1e5, [1e6], [1.0])
-    modulus = lambda w: 1e5 + 1e6 * 1j * w / (1 + 1j * w)  # noqa: E731
-    yield (
-        lambda: naive.angular_trapezoid(modulus, 1e15)[0],
-        lambda: rubber.angular_integrals(1e15)[0],
-        truth.angular(1e5, [1e6], [1.0], 1e15)[0],
     )
 
 
@@ -181,20 +150,6 @@ def nearly_equal() -> Iterator[Case]:
 
 
 @row(
-    "200 equal Prony terms",
-    "0/0 in the same",
-    naive="I2 by partial fractions",
-    truth="one term of 200 times the modulus, mpmath",
-)
-def equal() -> Iterator[Case]:
-    yield (
-        lambda: by_pairs(np.full(200, 1e6), np.full(200, 1e-3), 1e3),
-        lambda: series(0.0, np.full(200, 1e6), np.full(200, 1e-3)).angular_integrals(1e3)[1],
-        truth.angular(0.0, [2e8], [1e-3], 1e3)[1],
-    )
-
-
-@row(
     "1 to 200 Prony terms: mu",
     "the front, with 20 decades of relaxation times",
     naive="log-trapezoid of 1000 points",
@@ -239,29 +194,3 @@ def nine_decades() -> Iterator[Case]:
             lambda v=velocity, r=rubber: friction(r, pressure=1e5, velocity=v).contact_area,
             exact.area,
         )
-
-
-@row(
-    "a loss of 1e-200 Pa beside 4 MPa",
-    "E' - E_inf of a rubber all but elastic is lost in E'",
-    naive="I1 by Kramers-Kronig's rule of thumb, (pi/2) dE'/dln w, by differences",
-    truth="proportional to the loss: brute force at 1e-5 Pa",
-    allowed=1e-11,
-)
-def faint_term() -> Iterator[Case]:
-    tau = 1e-4
-    exact = brute(truth.prony(4e6, [1e-5], [tau])).mu * 1e5 * 1e-200
-
-    def by_difference(w: Any) -> Any:
-        def storage(x: Any) -> Any:
-            z = (x * tau) ** 2
-            return 4e6 + 1e-200 * z / (1 + z)
-
-        slope = (storage(w * 1.01) - storage(w / 1.01)) / (2 * math.log(1.01))
-        return math.pi * math.pi / 2 * slope, 2 * math.pi * storage(w) ** 2
-
-    yield (
-        lambda: trapezoid(by_difference)[0],
-        lambda: friction(series(4e6, [1e-200], [tau])).mu,
-        exact,
-    )

@@ -129,29 +129,6 @@ def lossy() -> Iterator[Case]:
 
 
 @row(
-    "exact sliding, a loss tangent of 16: K's skew part taken from the step before",
-    "with it lagged, symmetric solvers of elastic contact serve; the steps grow with the loss",
-    naive="60 symmetric contacts, each corrected by the last",
-    truth=TRUTH,
-    allowed=1e-9,
-    fails=0.1,
-)
-def lagged() -> Iterator[Case]:
-    contact = solved("loss tangent of 16")
-
-    def naive() -> float:
-        k, h = contact.compliance(), contact.heights.ravel()
-        matrix = dense(k)
-        symmetric, skew = (matrix + matrix.T) / 2, (matrix - matrix.T) / 2
-        p = np.full(h.size, contact.pressure)
-        for _ in range(60):
-            p = on_sets(symmetric, h - skew @ p, contact.pressure, p > 0)
-        return friction(contact, k, p)
-
-    yield naive, lambda: contact.ours().hysteresis, contact.mu
-
-
-@row(
     "exact sliding, fast: waves along the way, q_x = 0",
     "on a grid they stay relaxed at any speed, but stand for a band of q_x that does not",
     naive="K at q_x = 0 from the relaxed modulus; area",

@@ -208,6 +208,8 @@ TOGETHER = [
     ("z_max", lambda: asperity.separation(**GAPS, z_max=NAN, z_min=0)),
     ("heights", lambda: asperity.LocalPeaks([-1, -2, -3])),
     ("heights", lambda: asperity.LocalPeaks([1, 1, 1])),
+    ("heights_or_map", lambda: asperity.LocalPeaks([1e-4])),
+    ("heights_or_map", lambda: asperity.LocalPeaks([2e-4, 1e-4])),
     ("min_distance", lambda: asperity.LocalPeaks(MAP)),
     ("min_distance", lambda: asperity.LocalPeaks(PEAKS, min_distance=1e-6)),
     ("min_distance", lambda: asperity.LocalPeaks(MAP, min_distance=1.0)),

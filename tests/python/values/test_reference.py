@@ -95,6 +95,18 @@ def test_tabulated_spectrum(row):
     close(row, names, [*result, spectrum.cutoff_for_slope()])
 
 
+def test_differences_that_cancel():
+    """An interval 1e-12 wide, and peaks 1e-9 of their height above the mean plane."""
+    q = 2e3 * np.array([1, 1 + 1e-12])
+    slope = np.sqrt(2 * np.pi * 1e-2 * 8e9 * (q[1] - q[0]))
+    close_by = asperity.TabulatedSpectrum(wavenumber=q, density=[1e-2, 1e-2])
+    assert close_by.rms_slope == pytest.approx(slope, rel=1e-11)
+    peaks = [1e-3, -1e-3 + 3e-12, 0.0]
+    below = sum(1e-3 - z for z in peaks) / 3
+    shift = asperity.LocalPeaks(peaks).shift_factor
+    assert shift - 1 == pytest.approx(1e-3 / below - 1, rel=1e-12)
+
+
 @pytest.mark.reference("autocorrelation")
 def test_autocorrelation_of_self_affine_spectra(row):
     result = self_affine(row).autocorrelation(row["distance"])
