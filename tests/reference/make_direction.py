@@ -226,13 +226,7 @@ def main():
                         "lay_deg": LAY,
                         "direction_deg": LAY + angle,
                         **(dict.fromkeys(SBR) if rubber == "curve" else SBR),
-                        **dict(
-                            zip(
-                                ("table_frequency", "table_storage", "table_loss"),
-                                CURVE if rubber == "curve" else (None, None, None),
-                                strict=True,
-                            )
-                        ),
+                        **tables.table_columns(CURVE if rubber == "curve" else None),
                         "velocity": velocity,
                         "pressure": pressure,
                         "poisson_ratio": POISSON,

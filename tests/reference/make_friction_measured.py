@@ -14,13 +14,13 @@ from itertools import pairwise
 import numpy as np
 import tables
 from friction_scene import CUMULATIVE, NODES, WEIGHTS, area_law, corrected_area
-from make_friction import SBR, SECH, TRAPEZOID
+from make_friction import SBR
 from make_friction_tabulated import KINKY, sampled
+from rubber_integrals import prony_integrals, tabulated_integrals
 from scipy.integrate import cumulative_trapezoid, solve_ivp, trapezoid
 from scipy.interpolate import CubicHermiteSpline
-from steffen import Table, slopes
+from steffen import slopes
 
-FINE_NODES, FINE_WEIGHTS = np.polynomial.legendre.leggauss(40)
 P = area_law("exact")
 
 
@@ -259,111 +259,9 @@ def by_differential_equation(scene, integrals, parts):
     return np.array([P(g), P(g_s), sums[0], sums[1], g, sums[2]])
 
 
-def in_blocks(integrals):
-    """Return the function of w in blocks that fit the memory."""
-
-    def blocked(w):
-        parts = [integrals(block) for block in np.array_split(w, 1 + w.size // 64)]
-        return [np.concatenate(column) for column in zip(*parts, strict=True)]
-
-    return blocked
-
-
-def prony_integrals():
-    """Return w -> (I1, I2, 0) of the SBR-like rubber by trapezoids, and closed."""
-
-    def brute(w):
-        storage, loss = tables.prony(w[:, None] * SECH, *SBR.values())
-        weight = SECH * TRAPEZOID
-        return (SECH * loss) @ weight, (storage**2 + loss**2) @ weight, 0 * w
-
-    equilibrium, moduli, times = (np.array(value) for value in SBR.values())
-    coupling = sum(e * t / (times + t) for e, t in zip(moduli, times, strict=True))
-    weights = 2 * moduli * (equilibrium + coupling)
-
-    def closed(w):
-        x = w[:, None] * times
-        r = np.sqrt(1 + x * x)
-        s = x / (r * (r + 1))
-        i1 = 2 * np.pi * (s @ moduli)
-        return i1, 2 * np.pi * (equilibrium**2 + (s * x) @ weights), 0 * w
-
-    return in_blocks(brute), closed
-
-
-def extended(columns, extrapolation):
-    """Return knots, coefficients [column, interval, power] of ln E', ln E'', measured intervals."""
-    exact = Table(*columns)
-    knots = list(columns[0])
-    cubics = [[[float(v) for v in piece] for piece in column] for column in exact.cubics]
-    measured = [True] * len(cubics[0])
-    if extrapolation:
-        for values, column in zip(columns[1:], cubics, strict=True):
-            d = [float(s) for s in slopes(exact.x, [np.log(v) for v in values])]
-            low, high = (d[0], d[-1]) if extrapolation == "power-law" else (0.0, 0.0)
-            column.insert(0, [np.log(values[0]) - low * np.log(10.0), low, 0.0, 0.0])
-            column.append([np.log(values[-1]), high, 0.0, 0.0])
-        knots = [knots[0] / 10, *knots, knots[-1] * 10]
-        measured = [False, *measured, False]
-    return np.array(knots), np.array(cubics), np.array(measured)
-
-
-def tabulated_integrals(columns, extrapolation):
-    """Return w -> (I1, I2, I1 from outside of the table) by Gauss rules in z, and in phi."""
-    knots, cubics, measured = extended(columns, extrapolation)
-    x = np.log(knots)
-    storage0, loss0 = np.exp(cubics[:, 0, 0])
-    every = np.arange(len(knots) - 1)
-    parts = np.ceil(np.diff(x) * 1.5).astype(int)  # the rules in phi need shorter pieces
-    numbers = np.repeat(every, parts)
-    cuts = [np.geomspace(*knots[i : i + 2], parts[i] + 1)[:-1] for i in every]
-    cuts = np.concatenate([*cuts, knots[-1:]])
-
-    def piece(log_w, i):
-        """Return E' and E'' at log_w[frequency, interval, node], i the intervals' numbers."""
-        t = np.clip(log_w - x[i, None], 0, np.diff(x)[i, None])  # harmless where not used
-        k = cubics[:, i, :, None]
-        return [np.exp(c[:, 0] + t * (c[:, 1] + t * (c[:, 2] + t * c[:, 3]))) for c in k]
-
-    def in_z(w):
-        last = 1 + np.searchsorted(knots[:-1], np.max(w))  # knots above contribute nothing
-        edges = np.arccosh(np.maximum(w[:, None] / knots[:last], 1.0))
-        half = (edges[:, :-1, None] - edges[:, 1:, None]) / 2
-        z = edges[:, 1:, None] + half * (1 + FINE_NODES)
-        c = 1 / np.cosh(z)
-        storage, loss = piece(np.log(w)[:, None, None] + np.log(c), every[: last - 1])
-        weight = 4 * half * FINE_WEIGHTS * c
-        i1 = np.sum(weight * c * loss, axis=2)
-        i2 = np.sum(weight * (storage**2 + loss**2), axis=(1, 2))
-        s = np.arange(0.5, 40.0)  # the tail by Gauss panels in z
-        z = edges[:, :1, None] + s[:, None] + 0.5 * NODES
-        c = 1 / np.cosh(z)
-        loss = loss0 * c * (w / knots[0])[:, None, None]
-        weight = 2 * WEIGHTS * c
-        tail = np.sum(weight * c * loss, axis=(1, 2))
-        i2 += np.sum(weight * (storage0**2 + loss**2), axis=(1, 2))
-        return np.sum(i1, axis=1) + tail, i2, i1[:, ~measured[: last - 1]].sum(axis=1) + tail
-
-    def in_phi(w):
-        last = 1 + np.searchsorted(cuts[:-1], np.max(w))
-        edges = np.arccos(np.minimum(cuts[:last] / w[:, None], 1.0))
-        half = (edges[:, :-1, None] - edges[:, 1:, None]) / 2
-        phi = edges[:, 1:, None] + half * (1 + FINE_NODES)
-        c = np.cos(phi)
-        storage, loss = piece(np.log(w[:, None, None] * c), numbers[: last - 1])
-        weight = 4 * half * FINE_WEIGHTS
-        i1 = np.sum(weight * c * loss, axis=2)
-        i2 = np.sum(weight * (storage**2 + loss**2), axis=(1, 2))
-        ratio = np.minimum(knots[0] / w, 1.0)
-        rest = np.arcsin(ratio)
-        square = ratio**2  # where the difference cancels its series, good to 1e-17
-        series = ratio**3 * (2 / 3 + square * (1 / 5 + square * (3 / 28 + square * 5 / 72)))
-        cosines = np.where(ratio < 0.01, series, rest - ratio * np.sqrt(1 - square))
-        tail = 2 * loss0 / ratio * cosines
-        i2 += 4 * storage0**2 * rest + 2 * (loss0 / ratio) ** 2 * cosines
-        return i1.sum(axis=1) + tail, i2, i1[:, ~measured[numbers[: last - 1]]].sum(axis=1) + tail
-
-    return in_blocks(in_z), in_blocks(in_phi)
+def with_nothing_outside(integrals):
+    """Return w -> (I1, I2, 0)."""
+    return lambda w: (*integrals(w), 0 * w)
 
 
 def row(case, changes):
@@ -373,7 +271,7 @@ def row(case, changes):
     columns, knots = scene["rubber"], []
     prony = SBR if columns is None else dict.fromkeys(SBR)
     if columns is None:
-        integrals = prony_integrals()
+        integrals = [with_nothing_outside(each) for each in prony_integrals(SBR)]
     else:
         integrals = tabulated_integrals(columns, scene["extrapolation"])
         beyond = 10.0 if scene["extrapolation"] else 1.0
@@ -393,15 +291,12 @@ def row(case, changes):
     print(f"{case:28s}", " ".join(f"{x:.10g}" for x in first))
     if case in LITERAL:
         check_literally(scene, first)
-    rubber = dict.fromkeys(("table_frequency", "table_storage", "table_loss"))
-    if columns is not None:
-        rubber = dict(zip(rubber, columns, strict=True))
     return {
         "case": case,
         "table_wavenumber": q,
         "table_density": scene["spectrum"][1],
         **prony,
-        **rubber,
+        **tables.table_columns(columns),
         "extrapolation": scene["extrapolation"],
         **{key: scene[key] for key in ("pressure", "velocity", "poisson_ratio", "gamma")},
         "g": g,

@@ -27,6 +27,7 @@ from partial_surface import (
     rows_of,
     summed_end,
     summed_moment,
+    surface_columns,
 )
 from scipy.special import erf, erfc, erfcx
 
@@ -51,6 +52,7 @@ SCENES = {
     "steep end": {"surface": [[1e3, 1e4, 1e6], [1e-15, 1e-18, 1e-30]], "velocity": 10.0},
     "ramp to zero": {"surface": [[1e3, 1e4, 1e6], [1e-18, 1e-21, 0.0]]},
 }
+RESULTS = ("hysteresis", "contact_area", "macro_area", "rise_at_end", "rise")
 USUAL = {
     "pressure": 1e5,
     "velocity": 1.0,
@@ -239,37 +241,22 @@ def solve(scene, between, last, integrals, kernel, root, count, growth, longest,
     raise AssertionError(("no fixed point", missed, rise.max()))
 
 
+METHODS = (
+    (by_closed_kernel, by_kappa, 12, 2.0, 0.5, False),
+    (by_time, by_inverse, 16, 3.0, 0.7, True),
+)
+
+
 def row(case, changes):
     """Return one row, both methods compared."""
     scene = USUAL | changes
     q, c = rows_of(scene["surface"])
     ends = closed_end(q, c), summed_end(q, c)
-    result = (
-        solve(
-            scene,
-            closed_moment(q, c),
-            ends[0],
-            closed,
-            by_closed_kernel,
-            by_kappa,
-            12,
-            2.0,
-            0.5,
-            False,
-        ),
-        solve(
-            scene,
-            summed_moment(q, c),
-            ends[1],
-            brief_definition,
-            by_time,
-            by_inverse,
-            16,
-            3.0,
-            0.7,
-            True,
-        ),
-    )
+    moments = closed_moment(q, c), summed_moment(q, c)
+    result = [
+        solve(scene, *given, *method)
+        for *given, method in zip(moments, ends, (closed, brief_definition), METHODS, strict=True)
+    ]
     for one, two in zip(*result, strict=True):
         tables.agree("hot_partial_contact", one, two, 1e-11)
     print(
@@ -278,22 +265,13 @@ def row(case, changes):
         f"{np.exp(ends[0]) / q[-1]:.3g}",
         flush=True,
     )
-    surface = scene["surface"] if isinstance(scene["surface"], dict) else dict.fromkeys(ROAD)
-    rough = (None, None) if isinstance(scene["surface"], dict) else scene["surface"]
     return {
         "case": case,
-        **surface,
-        **dict(zip(("table_wavenumber", "table_density"), rough, strict=True)),
+        **surface_columns(scene["surface"]),
         **SBR,
         **{key: scene[key] for key in USUAL},
         "end": float(np.exp(ends[0])),
-        **dict(
-            zip(
-                ("hysteresis", "contact_area", "macro_area", "rise_at_end", "rise"),
-                (float(x) for x in result[0]),
-                strict=True,
-            )
-        ),
+        **dict(zip(RESULTS, map(float, result[0]), strict=True)),
         "rtol": 1e-10,
     }
 

@@ -13,7 +13,7 @@ their definition (a table's by Gauss rules in phi), the tail in 1 / x^3, the roo
 
 import numpy as np
 import tables
-from make_friction_tabulated import angular_integrals, sampled
+from make_friction_tabulated import sampled
 from partial_rule import TAIL_END, by_inverse, by_kappa, sums
 from partial_surface import (
     closed_end,
@@ -25,7 +25,9 @@ from partial_surface import (
     rows_of,
     summed_end,
     summed_moment,
+    surface_columns,
 )
+from rubber_integrals import angular_integrals, prony_integrals
 from scipy.special import erf
 
 SBR = {
@@ -104,17 +106,13 @@ SCENES = {
     "table that ends in the tail": {"table": sampled(-4, 7, 5), "velocity": 4.0, "pressure": 1e6},
     "table that ends at q1": {"table": sampled(-4, 6, 3), "velocity": 1.0, "pressure": 1e6},
 }
+RESULTS = ("g", "kappa", "contact_area", "hysteresis")
 USUAL = {"surface": ROAD, "rubber": SBR, "pressure": 2e5, "velocity": 1e-2, "poisson_ratio": 0.5}
 
 
 def held(integrals, highest):
     """Return I1, I2 of frequencies that are held at `highest`."""
-
-    def at(w):
-        i1, i2 = integrals(np.minimum(w.ravel(), highest * (1 - 1e-15)))[:2]
-        return i1.reshape(w.shape), i2.reshape(w.shape)
-
-    return at
+    return lambda w: integrals(np.minimum(w, highest * (1 - 1e-15)))
 
 
 def band(scene, integrals, between, last, rule, first, growth, longest):
@@ -185,27 +183,6 @@ def tail_in_power(scene, integrals, between, last):
     return (factor * i2).sum(), (factor * i1).sum()
 
 
-def prony_integrals(rubber):
-    """Return w -> (I1, I2) closed, and by trapezoids in z, cos(phi) = sech(z)."""
-
-    def closed(w):
-        return tables.prony_integrals(w, *rubber.values(), sqrt=np.sqrt)
-
-    z, step = np.linspace(0, 45, 2251, retstep=True)
-    cosine = 1 / np.cosh(z)
-    weights = np.where((z == 0) | (z == 45), 0.5, 1.0) * step * 4 * cosine
-
-    def defined(w):
-        i1, i2 = np.empty((2, w.size))
-        for at in range(0, w.size, 256):
-            storage, loss = tables.prony(w[at : at + 256, None] * cosine, *rubber.values())
-            i1[at : at + 256] = (cosine * loss) @ weights
-            i2[at : at + 256] = (storage**2 + loss**2) @ weights
-        return i1, i2
-
-    return closed, defined
-
-
 def row(case, changes):
     """Return one row, both methods compared."""
     scene = USUAL | changes
@@ -237,27 +214,14 @@ def row(case, changes):
     for one, two in zip(*result, strict=True):
         tables.agree("partial_contact", one, two, 1e-12)
     print(f"{case:28s}", " ".join(f"{x:.10g}" for x in result[0]), flush=True)
-    surface = scene["surface"] if isinstance(scene["surface"], dict) else dict.fromkeys(ROAD)
-    rough = (None, None) if isinstance(scene["surface"], dict) else scene["surface"]
     return {
         "case": case,
-        **surface,
-        **dict(zip(("table_wavenumber", "table_density"), rough, strict=True)),
+        **surface_columns(scene["surface"]),
         **(dict.fromkeys(SBR) if table else scene["rubber"]),
-        **dict(
-            zip(
-                ("table_frequency", "table_storage", "table_loss"),
-                table or (None, None, None),
-                strict=True,
-            )
-        ),
+        **tables.table_columns(table),
         **{key: scene[key] for key in ("pressure", "velocity", "poisson_ratio")},
         **dict(
-            zip(
-                ("g", "kappa", "contact_area", "hysteresis"),
-                (float(x) for x in result[0]),
-                strict=True,
-            )
+            zip(("g", "kappa", "contact_area", "hysteresis"), map(float, result[0]), strict=True)
         ),
         "rtol": 1e-10,
     }

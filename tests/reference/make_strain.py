@@ -13,10 +13,19 @@ is (I2 of 2 E' + i E'' less I2) / 3.
 import make_hot_partial_contact as hot
 import numpy as np
 import tables
-from make_friction_tabulated import angular_integrals, sampled
+from make_friction_tabulated import sampled
 from make_partial_contact import ROAD, SBR, band, rings, tail_in_logarithm, tail_in_power
 from partial_rule import by_inverse, by_kappa, sums
-from partial_surface import closed_end, closed_moment, gauss, rows_of, summed_end, summed_moment
+from partial_surface import (
+    closed_end,
+    closed_moment,
+    gauss,
+    rows_of,
+    summed_end,
+    summed_moment,
+    surface_columns,
+)
+from rubber_integrals import angular_integrals, prony_parts
 from scipy.optimize import brentq
 from scipy.special import erf
 
@@ -61,18 +70,7 @@ def prony(rubber):
         of_loss = loss_squared(w, rubber)
         return i1, i2 - of_loss, of_loss
 
-    z, step = np.linspace(0, 45, 2251, retstep=True)
-    cosine = 1 / np.cosh(z)
-    weights = np.where((z == 0) | (z == 45), 0.5, 1.0) * step * 4 * cosine
-
-    def defined(w):
-        result = np.empty((3, w.size))
-        for at in range(0, w.size, 256):
-            storage, loss = tables.prony(w.ravel()[at : at + 256, None] * cosine, *rubber.values())
-            result[:, at : at + 256] = [v @ weights for v in (cosine * loss, storage**2, loss**2)]
-        return result.reshape(3, *w.shape)
-
-    return closed, defined
+    return closed, prony_parts(rubber)
 
 
 def tabulated(table):
@@ -82,9 +80,9 @@ def tabulated(table):
 
     def split(once, twice):
         def at(w):
-            i1, i2 = once(w.ravel())[:2]
-            of_storage = (twice(w.ravel())[1] - i2) / 3
-            return np.reshape([i1, of_storage, i2 - of_storage], (3, *w.shape))
+            i1, i2 = once(w)
+            of_storage = (twice(w)[1] - i2) / 3
+            return i1, of_storage, i2 - of_storage
 
         return at
 
@@ -166,10 +164,7 @@ def hot_row(case, changes):
         prony(SBR),
         (closed_moment(q, c), summed_moment(q, c)),
         (closed_end(q, c), summed_end(q, c)),
-        (
-            (hot.by_closed_kernel, by_kappa, 12, 2.0, 0.5, False),
-            (hot.by_time, by_inverse, 16, 3.0, 0.7, True),
-        ),
+        hot.METHODS,
         strict=True,
     ):
         at, kinks = softened(scene, integrals, between, np.log(q))
@@ -178,23 +173,13 @@ def hot_row(case, changes):
     for one, two in zip(*results, strict=True):
         tables.agree("strain_hot", one, two, 1e-10)
     print(f"{case:44s}", " ".join(f"{x:.6g}" for x in results[0]), flush=True)
-    surface = scene.pop("surface")
-    closed = isinstance(surface, dict)
     return {
         "case": case,
-        **(surface if closed else dict.fromkeys(ROAD)),
-        "table_wavenumber": None if closed else surface[0],
-        "table_density": None if closed else surface[1],
+        **surface_columns(scene.pop("surface")),
         **SBR,
         **scene.pop("factors"),
         **scene,
-        **dict(
-            zip(
-                ("hysteresis", "contact_area", "macro_area", "rise_at_end", "rise"),
-                (float(x) for x in results[0]),
-                strict=True,
-            )
-        ),
+        **dict(zip(hot.RESULTS, map(float, results[0]), strict=True)),
         "rtol": 1e-8,
     }
 
@@ -215,18 +200,12 @@ def row(case, scene):
     for name, value in one.items():
         tables.agree("strain", value, two[name], 1e-11)
     print(f"{case:44s}", " ".join(f"{x:.6g}" for x in one.values()), flush=True)
-    closed = isinstance(surface, dict)
-    factors = scene["factors"]
     return {
         "case": case,
-        **(surface if closed else dict.fromkeys(ROAD)),
-        "table_wavenumber": None if closed else surface[0],
-        "table_density": None if closed else surface[1],
+        **surface_columns(surface),
         **(dict.fromkeys(SBR) if table else SBR),
-        "table_frequency": table and table[0],
-        "table_storage": table and table[1],
-        "table_loss": table and table[2],
-        **factors,
+        **tables.table_columns(table),
+        **scene["factors"],
         **{key: scene[key] for key in ("pressure", "velocity", "poisson_ratio")},
         **{name: float(value) for name, value in one.items()},
         "rtol": 1e-9,

@@ -40,6 +40,17 @@ def rows_of(surface):
     return [q, top * np.maximum(q / knee, 1.0) ** (-2 * (h + 1))]
 
 
+def surface_columns(surface):
+    """Return the columns of a closed form, or of rows."""
+    closed = isinstance(surface, dict)
+    names = ("rms_height", "hurst", "q0", "q1", "rolloff")
+    rows = (None, None) if closed else surface
+    return {
+        **(surface if closed else dict.fromkeys(names)),
+        **dict(zip(("table_wavenumber", "table_density"), rows, strict=True)),
+    }
+
+
 def roughness(q, c):
     """Return c = q^4 C as a function of y and of the number of the interval."""
     power = np.zeros(len(c) - 1)

@@ -37,6 +37,12 @@ def write(name, comments, rows):
     print(f"{name}: {len(rows)} rows, worst disagreement {float(WORST.get(name, 0)):.1e}")
 
 
+def table_columns(table):
+    """Return the columns of a tabulated modulus, empty where there is none."""
+    names = ("table_frequency", "table_storage", "table_loss")
+    return dict(zip(names, table or (None, None, None), strict=True))
+
+
 def agree(name, first, second, bound, scale=None):
     """Assert |first - second| <= bound * scale and remember the worst ratio.
 
