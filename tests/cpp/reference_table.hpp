@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -18,9 +17,6 @@ class Row {
   explicit Row(std::map<std::string, std::string> cells) : cells_(std::move(cells)) {}
   [[nodiscard]] const std::string& text(const std::string& column) const { return cells_.at(column); }
   [[nodiscard]] double number(const std::string& column) const { return to_number(text(column)); }
-  [[nodiscard]] std::optional<double> maybe(const std::string& column) const {
-    return text(column).empty() ? std::nullopt : std::optional(number(column));
-  }
   [[nodiscard]] std::vector<double> list(const std::string& column) const {
     std::vector<double> values;
     std::istringstream cells(text(column));

@@ -1,5 +1,7 @@
 """Threads share points, and change no number, no note and no error."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -44,6 +46,11 @@ def test_any_number_of_threads_gives_the_same_bits(spectrum, rubber, options):
     assert alone.notes
     for threads in (2, 3, 8, 1000):
         assert asperity.friction(spectrum, rubber, threads=threads, **scene) == alone, threads
+    pressure = np.broadcast_to(scene["pressure"], VELOCITY.shape)
+    fresh = pickle.loads(pickle.dumps(spectrum))  # which keeps nothing of its rings yet
+    for k, surface in ((5, fresh), (0, fresh), (-1, spectrum)):
+        point = {**scene, "pressure": pressure[k], "velocity": VELOCITY[k]}
+        assert asperity.friction(surface, rubber, **point).mu == alone.mu[k]
 
 
 def test_a_map_is_the_same_with_any_number_of_threads():

@@ -175,6 +175,9 @@ def test_mirrored_and_shifted_maps() -> None:
 @pytest.mark.parametrize("scale", [1e-6, 1e5])
 def test_units(scale: float) -> None:
     surface, first = rough(48, 8), pressed(rough(48, 8), rtol=1e-9)
+    assert first.pressure.min() == first.gap.min() == 0
+    assert first.pressure.mean() == pytest.approx(2e5, rel=1e-12)
+    assert (first.pressure * first.gap).mean() <= 1e-9 * first.pressure.mean() * surface.rms_height
     long = asperity.HeightMap(surface.heights * scale, pixel_size=surface.pixel_size[0] * scale)
     result = pressed(long, velocity=0.3 * scale, rtol=1e-9)
     assert result.hysteresis == pytest.approx(first.hysteresis, rel=1e-8)
