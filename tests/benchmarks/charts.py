@@ -3,8 +3,8 @@ Takes about three minutes:
 
     python tests/benchmarks/charts.py
 
-Runs rings, friction, point, scaling and work_precision one after the other and writes what they
-find to docs/benchmarks, and the tables between their two marks in that page. Needs ASPERITY_DATA
+Runs rings, friction, point and work_precision one after the other and writes what they find to
+docs/benchmarks, and the tables between their two marks in that page. Needs ASPERITY_DATA
 as rings.py for its measured rows; ASPERITY_LIBRARY as for point.py.
 pip install asperity scipy pybind11.
 """
@@ -16,7 +16,6 @@ from pathlib import Path
 import measured
 import point
 import rings
-import scaling
 import timing
 import work_precision
 
@@ -26,7 +25,7 @@ from asperity.io.files import write_files
 ROOT = Path(__file__).parents[2]
 DOCS, PAGE = ROOT / "docs" / "benchmarks", ROOT / "docs" / "notes" / "speed.md"
 BEGIN, END = "<!-- written by tests/benchmarks/charts.py -->\n", "<!-- as far as here -->\n"
-PARTS = (rings, friction, point, scaling, work_precision)
+PARTS = (rings, friction, point, work_precision)
 
 Rows = list[dict[str, str]]
 
@@ -58,10 +57,6 @@ def page(tables: dict[str, str]) -> str:
     header += [f"{key} NumPy over it" for key in friction.YARDSTICKS]
     points = {row["quantity"]: float(row["time_s"]) for row in rows_of(tables["point.csv"])[0]}
     table = {row["quantity"]: float(row["value"]) for row in rows_of(tables["tabulated.csv"])[0]}
-    sweeps = rows_of(tables["scaling.csv"])[0]
-    known = {(row["sweep"], int(row["count"])): float(row["time_s"]) for row in sweeps}
-    terms = {count: t for (sweep, count), t in known.items() if sweep == "terms"}
-    start, slope = scaling.straight(terms)
     alone, grid = points["cpp, rtol 1e-06"], points["grid 1000 x 1000"]
     more = [
         [
@@ -71,11 +66,6 @@ def page(tables: dict[str, str]) -> str:
         [
             "a grid of 1000 pressures x 1000 velocities",
             f"{1e6 * grid / 1e6:.2g} us a point, {timing.number(grid / alone)} times one in C++",
-        ],
-        ["1 to 1e6 velocities", f"{known['velocities', 10**6]:.2g} s for the last"],
-        [
-            "1 to 200 Prony terms, 60 velocities",
-            f"{1e6 * start:.0f} us and {1e6 * slope:.1f} us a term",
         ],
         [
             "23 rows of a table for 20 terms, rtol 1e-9",
