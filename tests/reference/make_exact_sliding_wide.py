@@ -25,7 +25,6 @@ from pathlib import Path
 import contact_tables
 import make_exact_sliding
 import numpy as np
-from make_exact_spectra import NU, compliance
 
 import asperity
 from asperity.validation import slide
@@ -36,6 +35,7 @@ COMMENT = """\
 # make_exact_sliding_wide.py says what the columns are and solves all of it again. Rubbers and
 # columns of the same names as in exact_sliding.csv.
 """
+NU = 0.5
 PIXELS = 8  # to the shortest wave
 WAVES = 4  # of the longest wave to the side of a patch
 PRESSURES = 8
@@ -102,6 +102,21 @@ def pressed(map, row, pressure, velocity):
         periodic=True,
         rtol=1e-3,
     )
+
+
+def compliance(rubber, velocity, points):
+    """Return 1 / conj E(v q_x) by k_x, its mean over the band at 0, and the loss of that band."""
+    if velocity == 0:
+        return np.ones(points // 2 + 1, complex), 0.0
+    k = np.arange(points // 2 + 1)
+    inverse = 1 / np.conj(rubber.modulus(np.maximum(2 * np.pi * k, 1e-9) * velocity))
+    inverse[-1] = inverse[-1].real
+    node, weight = np.polynomial.legendre.leggauss(16)
+    upper = np.pi * 0.5 ** np.arange(60)[:, None]
+    q, weight = upper / 4 * (3 + node), upper / 4 * weight / np.pi
+    of_band = 1 / np.conj(rubber.modulus(velocity * q.ravel())).reshape(q.shape)
+    inverse[0] = (weight * of_band.real).sum()
+    return inverse, (weight * q * of_band.imag).sum()
 
 
 def long_waves(pressure, last, row, velocity):
