@@ -171,22 +171,6 @@ def test_a_scene_says_of_a_worn_line_scan_what_its_tops_have(tmp_path: Path, sha
         assert share < 0.8  # half of the points have all of the slope in a Gaussian map: 1
 
 
-@pytest.mark.parametrize(
-    ("argument", "given"),
-    [
-        ("kurtosis", {"skewness": 1.0, "kurtosis": 1.5}),  # below 1 + skewness^2
-        ("kurtosis", {"skewness": 1.0}),
-        ("kurtosis", {"curvature_kurtosis": 3.0}),
-        ("curvature_kurtosis", {"skewness": 0.0, "kurtosis": 3.0, "curvature_kurtosis": 0.5}),
-        ("skewness", {"skewness": np.nan, "kurtosis": 3.0}),
-    ],
-)
-def test_numbers_that_no_heights_have_are_refused(argument: str, given: dict[str, float]) -> None:
-    with pytest.raises(asperity.InvalidInput) as caught:
-        asperity.TabulatedSpectrum(wavenumber=[1.0, 2.0], density=[1.0, 1.0], **given)
-    assert caught.value.argument == argument
-
-
 def test_waves_may_be_gathered_along_either_axis() -> None:
     rng = np.random.default_rng(2)
     place = np.arange(256) / 256

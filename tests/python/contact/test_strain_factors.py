@@ -108,24 +108,6 @@ def test_parts_sum_to_the_whole(kind):
     np.testing.assert_allclose(whole, result.hysteresis, rtol=5e-3)  # of the trapezoids
 
 
-@pytest.mark.parametrize(
-    ("argument", "values"),
-    [
-        ("strain", {"strain": [0.1, 0.1, 0.5]}),
-        ("strain[0]", {"strain": [-0.1, 0.1, 0.5]}),
-        ("storage[1]", {"storage": [1, 0, 0.5]}),
-        ("loss[2]", {"loss": [1, 1, float("nan")]}),
-        ("loss", {"loss": [1, 1]}),
-        ("strain_per_slope", {"strain_per_slope": 0}),
-    ],
-)
-def test_bad_input(argument, values):
-    good = {"strain": [0.01, 0.1, 0.5], "storage": [0.8, 0.5, 0.3], "loss": [1.2, 0.8, 0.4]}
-    with pytest.raises(asperity.InvalidInput) as error:
-        StrainFactors(**{**good, **values})
-    assert argument in str(error.value)
-
-
 def test_exact_contacts_of_a_scan_soften_too():
     road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2.5e3, q1=1.5e4)
     scan = asperity.synthesize(road, shape=(96, 96), pixel_size=1e-4, seed=3)

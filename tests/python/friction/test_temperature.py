@@ -134,12 +134,3 @@ def test_a_shift_that_is_not_known_is_out_of_range():
         asperity.friction(ROAD, RUBBER, temperature=293.15, shift=steep, **at)
     with refused("velocity", "unknown-modulus", asperity.OutOfRange):
         asperity.friction(ROAD, BUILD.master_curve, pressure=1e5, velocity=10.0, temperature=301.0)
-
-
-@pytest.mark.parametrize(
-    ("argument", "value"),  # the law would take Celsius, and be off by decades
-    [("c1", 0.0), ("c2", 0.0), *(("reference_temperature", t) for t in (0.0, 20.0, np.nan))],
-)
-def test_constants_of_a_law_must_be_possible(argument, value):
-    with refused(argument):
-        asperity.WLF(**{"c1": 8.86, "c2": 101.6, "reference_temperature": 293.15, argument: value})

@@ -8,7 +8,6 @@ from asperity import (
     InvalidInput,
     LineScan,
     SelfAffineSpectrum,
-    TabulatedSpectrum,
     power_spectrum,
     synthesize,
 )
@@ -98,14 +97,7 @@ def test_harmonics_scatter_as_their_errors_say():
     assert abs(np.mean(off)) < 0.1
 
 
-def test_bad_directions_are_refused():
-    q, c = [1e3, 1e4], [1e-15, 1e-18]
-    with pytest.raises(InvalidInput, match="axis_ratio"):
-        SelfAffineSpectrum(**LAW, axis_ratio=0.5)
-    with pytest.raises(InvalidInput, match="sine"):
-        TabulatedSpectrum(wavenumber=q, density=c, cosine=[[0.1], [0.1]])
-    with pytest.raises(InvalidInput, match="cosine"):
-        TabulatedSpectrum(wavenumber=q, density=c, cosine=[[1.1], [0.1]], sine=[[0.0], [0.0]])
+def test_a_line_has_no_directions():
     line = LineScan(np.sin(np.arange(64.0)), spacing=1e-6)
     with pytest.raises(InvalidInput, match="directional"):
         power_spectrum(line, directional=True)

@@ -89,13 +89,6 @@ def test_by_tiles_it_is_the_same(map_):
     assert tiled.q1 == NYQUIST < tiled.wavenumber[-1]
 
 
-@pytest.mark.parametrize("q1", [5e3, 1e9, float("nan")])
-def test_a_band_without_rows_is_refused(q1):
-    with pytest.raises(asperity.InvalidInput) as caught:
-        TabulatedSpectrum(wavenumber=[5e3, 1e4], density=[1e-18, 1e-20], q1=q1)
-    assert caught.value.argument == "q1"
-
-
 @pytest.mark.parametrize("directional", [False, True])
 def test_a_result_states_how_the_heights_were_prepared(map_, directional):
     """In the words of a scene, through what keeps the rows, a pickle and directions."""

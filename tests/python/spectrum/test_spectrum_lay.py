@@ -147,7 +147,3 @@ def test_a_mean_over_directions_tells_of_its_lay() -> None:
     kept = asperity.power_spectrum(scan, directional=True)
     assert "lay" not in [note.code for note in asperity.friction(kept, rubber, **at).notes]
     assert asperity.merge_spectra([table, table]).slope_ratio == table.slope_ratio
-    with pytest.raises(asperity.InvalidInput, match="slope_ratio"):
-        asperity.TabulatedSpectrum(
-            wavenumber=[1, 2], density=[1, 1], skewness=0, kurtosis=3, slope_ratio=0.5
-        )

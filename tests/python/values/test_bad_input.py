@@ -60,6 +60,7 @@ REFUSED = {  # several arguments that refuse the same stand in one key
         "wavenumber": [*ROWS, [1, 1, 2], [2, 1, 3]],
         "density": DENSITIES,
         "count": DENSITIES,
+        "q1": [1e3, 1e9, NAN],
     },
     **{
         f"{kind}Spectrum.{method}": refused
@@ -123,6 +124,7 @@ REFUSED = {  # several arguments that refuse the same stand in one key
         "shape": [(1, 8), (8, 1), (0, 0), (-1, 8)],
         "pixel_size": POSITIVE,
         "seed": [-1, 2**64],
+        "skewness": [-2.001, 2.001, NAN, INF],
     },
     "SFactor": {"gamma": SHARE, "applies_to": NAME},
     "NayakSFactor": {"friction_gamma": SHARE},
@@ -153,8 +155,28 @@ REFUSED = {  # several arguments that refuse the same stand in one key
     "friction": {**EVERYWHERE, "form": NAME},
     "pressure_distribution": {**EVERYWHERE, "wavenumber": [*POSITIVE, 1e3], "stress": NOT_NEGATIVE},
     "Adhesion": {"shear_stress width": NOT_NEGATIVE, "reference_velocity": POSITIVE},
+    "StrainFactors": {
+        "strain": [[0.1, 0.1, 0.5], [-0.1, 0.1, 0.5]],
+        "storage loss": [[1, 0, 0.5], [1, 1, NAN], [1, 1]],
+        "strain_per_slope": POSITIVE,
+    },
+    "Heating": {
+        "density": [1.2, NAN],
+        "heat_capacity": [1.65, NAN],
+        "conductivity": [230.0, NAN],
+        "contact_diameter": [0.0, -INF],
+        "macro_area": [1.1, NAN],
+        "interface_share": [-0.1, NAN],
+        "residence": ["ring"],
+    },
+    "WLF": {"c1 c2": POSITIVE, "reference_temperature": [0.0, 20.0, NAN]},  # no degrees Celsius
 }
-SHORT = {"TabulatedSpectrum": TABLE, "MasterCurve": MEASURED}  # three rows, as the bad values
+SOFTENED = {"strain": [0.01, 0.1, 0.5], "storage": [0.8, 0.5, 0.3], "loss": [1.2, 0.8, 0.4]}
+SHORT = {  # three rows, as the bad values
+    "TabulatedSpectrum": TABLE,
+    "MasterCurve": MEASURED,
+    "StrainFactors": asperity.StrainFactors(**SOFTENED),
+}
 BAD_VALUES = [
     pytest.param(call, argument, value, id=f"{call}-{argument}-{i}")
     for call, arguments in REFUSED.items()
@@ -186,6 +208,10 @@ def friction(pressure, velocity, rubber=RUBBER):
     return asperity.friction(SURFACE, rubber, pressure=pressure, velocity=velocity)
 
 
+def table(**given):
+    return asperity.TabulatedSpectrum(wavenumber=[1e3, 1e4], density=[1e-15, 1e-18], **given)
+
+
 def prony(modulus, moduli, times):
     return asperity.PronySeries(equilibrium_modulus=modulus, moduli=moduli, relaxation_times=times)
 
@@ -195,6 +221,15 @@ TOGETHER = [
     ("q1", lambda: ROAD.truncated(q1=1.5e3)),  # below the roll-off
     ("q0", lambda: SURFACE.truncated(q0=1e9)),
     ("q1", lambda: SURFACE.truncated(q1=1)),
+    ("kurtosis", lambda: table(skewness=1.0, kurtosis=1.5)),  # below 1 + skewness^2
+    ("kurtosis", lambda: table(skewness=1.0)),
+    ("kurtosis", lambda: table(curvature_kurtosis=3.0)),
+    ("curvature_kurtosis", lambda: table(skewness=0, kurtosis=3.0, curvature_kurtosis=0.5)),
+    ("skewness", lambda: table(skewness=NAN, kurtosis=3.0)),
+    ("slope_ratio", lambda: table(skewness=0, kurtosis=3.0, slope_ratio=0.5)),
+    ("sine", lambda: table(cosine=[[0.1], [0.1]])),
+    ("cosine", lambda: table(cosine=[[1.1], [0.1]], sine=[[0.0], [0.0]])),
+    ("axis_ratio", lambda: asperity.SelfAffineSpectrum(**BAND, axis_ratio=0.5)),
     ("moduli", lambda: prony(1, [1, 2], [1])),
     ("equilibrium_modulus", lambda: prony(0, [], [])),
     ("heights", lambda: HOLED.fill_dropouts(max_fraction=0.01)),
