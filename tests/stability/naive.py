@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid, quad
-from scipy.optimize import brentq, fsolve
+from scipy.optimize import fsolve
 from scipy.special import erf
 from truth import Integrals
 
@@ -82,39 +82,3 @@ def moment_quad(t: float) -> float:
 def separation(load: float) -> float:
     """t where that integral is `load`, by SciPy's fsolve from the mean plane."""
     return float(fsolve(lambda t: moment_quad(float(t[0])) - load, 0.0)[0])
-
-
-def partial_contact(
-    c: Any, integrals: Integrals, q: Any, end: float, pressure: float, velocity: float
-) -> float:
-    """mu by the rule of PartialContact as docs/explanation/partial_contact.md writes it, its
-    roughness ending at `end`, by the trapezoid rule in ln q and brentq in ln kappa; nu = 0.5."""
-    y, rough, stiff = np.log(q), q**4 * c, 1 / (8 * (0.75 * pressure) ** 2)
-    mass = cumulative_trapezoid(rough, y, initial=0)
-    window = lambda at: (np.interp(at + 1, y, mass) - np.interp(at - 1, y, mass)) / 2  # noqa: E731
-    i1, i2 = integrals(velocity * q)
-    rate, w, w_end = stiff * rough * i2, window(y), float(window(math.log(end)))
-    g = cumulative_trapezoid(rate, y, initial=0)
-    x = np.geomspace(1, 33, 1000)
-    t1, t2 = integrals(velocity * end * x)
-    last = stiff * t2[0]
-    excess = 1 - min(1.0, g[-1] / (last * mass[-1]))
-
-    def sums(kappa: float) -> tuple[float, float]:
-        """What the variance lacks, and mu."""
-        with np.errstate(divide="ignore"):
-            a = erf(0.5 / np.sqrt(kappa * g))
-        a1, g1 = float(a[-1]), kappa * g[-1]
-        s = 0.5 / math.sqrt(g1)
-        edge = 0.67 * (4 * w_end / mass[-1]) ** 0.2 * kappa**0.25 * (1 - a1) ** 0.125
-        z = edge * (1 + 6.3 * (1 - a1**0.1) ** 3) * a * a * stiff * i2 * w
-        r = a / (1 + z) ** 2 * rate
-        t = 3.55 * a1 * (1 - a1**0.25) * last * w_end * (t2 / t2[0]) ** 1.25 / x**3
-        moment = (1 + 2 * g1) * math.erf(s) + 2 * math.sqrt(g1 / math.pi) * math.exp(-s * s) - 1
-        most = moment / 2 * (1 + (0.105 * a1 + 0.45 * excess**4) * (1 - a1**8))
-        had = np.trapezoid(r, y) + np.trapezoid(t, np.log(x))
-        loss = np.trapezoid(r * i1 / i2, y) + np.trapezoid(t * t1 / t2, np.log(x))
-        return float(had - most), float(3 * pressure * loss)
-
-    root = brentq(lambda k: sums(math.exp(k))[0], math.log(1e-2), math.log(1e2))
-    return sums(math.exp(root))[1]

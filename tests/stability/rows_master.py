@@ -7,9 +7,7 @@ from typing import Any
 
 import naive
 import numpy as np
-import truth
 from rows import Case, row
-from rows_rubber import ROAD, friction, road_density, trapezoid
 
 import asperity
 
@@ -77,29 +75,3 @@ def kinks() -> Iterator[Case]:
                 lambda i=i, at=at: made.angular_integrals(at)[i],
                 definition(at)[i],
             )
-
-
-@row(
-    "kinks: mu on that rubber",
-    "panels must end at every knot",
-    naive="log-trapezoid of 1000 points",
-    truth="brute force between knots, I1 and I2 by definition",
-    allowed=1e-9,
-)
-def kinks_friction() -> Iterator[Case]:
-    rows = curve(12, kink=1.0)
-    definition, velocity, pressure = Definition(*rows.values()), 1e-2, 3e1
-
-    def integrals(w: Any) -> Any:
-        result = np.array([definition(float(x))[:2] for x in np.ravel(w)])
-        return result[:, 0].reshape(np.shape(w)), result[:, 1].reshape(np.shape(w))
-
-    knots = rows["angular_frequency"] / velocity
-    edges = [ROAD["q0"], *knots[(knots > ROAD["q0"]) & (knots < ROAD["q1"])], ROAD["q1"]]
-    pieces = truth.table(edges, road_density(np.array(edges)))
-    exact = truth.contact(pieces, integrals, pressure, velocity, panels=60)
-    yield (
-        lambda: trapezoid(integrals, pressure, velocity)[0],
-        lambda: friction(asperity.MasterCurve(**rows), pressure=pressure).mu,
-        exact.mu,
-    )
