@@ -1,11 +1,10 @@
-"""All charts of speed and exactness, and the tables of them in docs/notes/speed.md.
-Takes about three minutes:
+"""The tables of speed and exactness in docs/notes/speed.md. Takes about two minutes:
 
     python tests/benchmarks/charts.py
 
-Runs rings, friction, point and work_precision one after the other and writes what they find to
-docs/benchmarks, and the tables between their two marks in that page. Needs ASPERITY_DATA
-as rings.py for its measured rows; ASPERITY_LIBRARY as for point.py.
+Runs rings, friction and point one after the other and writes what they find to docs/benchmarks,
+and the tables between their two marks in that page. Needs ASPERITY_DATA as rings.py for its
+measured rows; ASPERITY_LIBRARY as for point.py.
 pip install asperity scipy pybind11.
 """
 
@@ -17,7 +16,6 @@ import measured
 import point
 import rings
 import timing
-import work_precision
 
 import friction
 from asperity.io.files import write_files
@@ -25,7 +23,7 @@ from asperity.io.files import write_files
 ROOT = Path(__file__).parents[2]
 DOCS, PAGE = ROOT / "docs" / "benchmarks", ROOT / "docs" / "notes" / "speed.md"
 BEGIN, END = "<!-- written by tests/benchmarks/charts.py -->\n", "<!-- as far as here -->\n"
-PARTS = (rings, friction, point, work_precision)
+PARTS = (rings, friction, point)
 
 Rows = list[dict[str, str]]
 

@@ -19,7 +19,7 @@ from functools import partial
 import timing
 from curves import Curve, curves
 from moduli import PlainProny
-from schemes import by_parts, graded_panels, log_trapezoid, nested_quad
+from schemes import graded_panels, log_trapezoid, nested_quad
 
 import asperity
 
@@ -42,7 +42,6 @@ def methods(curve: Curve) -> dict[str, timing.Call]:
     calls[YARDSTICKS["plain"]] = partial(graded_panels, plain, **panels)
     calls[YARDSTICKS["blocked"]] = partial(graded_panels, curve, **panels)
     calls[YARDSTICKS["tuned"]] = partial(graded_panels, curve, nodes=14, growth=9, longest=3)
-    calls["by parts, 32 nodes, NumPy"] = partial(by_parts, curve, 32)
     for points in (100, 1000, 10000):
         calls[f"log-trapezoid, {points} points"] = partial(log_trapezoid, curve, points)
     for name in ("qag", "qags", "cquad"):

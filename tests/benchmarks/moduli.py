@@ -1,7 +1,7 @@
 """The angular integrals I1 and I2 of a rubber in NumPy, as well as they can be written in it.
 
-Both classes take flat arrays of frequencies w [rad/s] and give I1 [Pa] and I2 [Pa^2], `with_slopes`
-also d/dln w of both. Work goes in blocks that stay in the second cache, into arrays that are kept.
+Both classes take flat arrays of frequencies w [rad/s] and give I1 [Pa] and I2 [Pa^2]. Work goes in
+blocks that stay in the second cache, into arrays that are kept.
 """
 
 from itertools import pairwise
@@ -42,27 +42,6 @@ class Prony:
         i2 *= 2 * np.pi
         return i1, i2
 
-    def with_slopes(self, w: Array) -> tuple[Array, Array, Array, Array]:
-        i1, i2, slope1, slope2 = np.empty((4, w.size))
-        for at, some in _blocks(w, self._block):
-            t, x, r = self._kept[:, : some.size]
-            np.multiply(some[:, None], self.times, out=t)
-            np.multiply(t, t, out=x)
-            x += 1
-            np.sqrt(x, out=r)
-            rise = t / (x * r)  # x / r^3 = ds/dln w, over t
-            x += r
-            np.divide(t, x, out=x)
-            np.dot(x, self.moduli, out=i1[at])
-            np.dot(rise, self.moduli, out=slope1[at])
-            x *= t
-            rise *= t
-            np.dot(x, self.weights, out=i2[at])
-            np.dot(rise, self.weights, out=slope2[at])
-        i2 += self.equilibrium**2
-        slope1 -= i1
-        return tuple(2 * np.pi * column for column in (i1, i2, slope1, slope2))  # type: ignore
-
 
 class PlainProny(Prony):
     """The same formulas as most would write them, in whole arrays."""
@@ -89,20 +68,14 @@ class Steffen:
         self.nodes, self.gauss = np.polynomial.legendre.leggauss(12)
 
     def __call__(self, w: Array) -> tuple[Array, Array]:
-        return self._integrals(w, slopes=False)[:2]  # type: ignore
-
-    def with_slopes(self, w: Array) -> tuple[Array, Array, Array, Array]:
-        return self._integrals(w, slopes=True)  # type: ignore
-
-    def _integrals(self, w: Array, slopes: bool) -> Array:
-        result = np.empty((4 if slopes else 2, w.size))
+        result = np.empty((2, w.size))
         for at, some in _blocks(w, BLOCK // 8):
-            result[:, at] = self._tail(some, slopes)
+            result[:, at] = self._tail(some)
             for i in range(np.searchsorted(self.knots[:-1], some.max())):
-                result[:, at] += self._interval(i, some, slopes)  # of no width above w
-        return result
+                result[:, at] += self._interval(i, some)  # of no width above w
+        return tuple(result)  # type: ignore
 
-    def _interval(self, i: int, w: Array, slopes: bool) -> Array:
+    def _interval(self, i: int, w: Array) -> Array:
         near, far = (np.arccosh(np.maximum(w / self.knots[k], 1)) for k in (i + 1, i))
         half = (far - near)[:, None] / 2
         z = near[:, None] + half * (1 + self.nodes)
@@ -110,27 +83,21 @@ class Steffen:
         t = np.log(w[:, None] * c)
         t -= self.x[i]
         np.clip(t, 0, self.x[i + 1] - self.x[i], out=t)  # of no width where w is below the interval
-        modulus, rise = [], []
-        for a, b, d, e in (part[i] for part in self.cubics):
-            modulus.append(np.exp(a + t * (b + t * (d + t * e))))
-            if slopes:
-                rise.append(modulus[-1] * (b + t * (2 * d + 3 * t * e)))
-        (storage, loss), weight = modulus, c * half * (4 * self.gauss)
-        columns = [c * loss, storage**2 + loss**2]
-        if slopes:
-            columns += [c * rise[1], 2 * (storage * rise[0] + loss * rise[1])]
+        storage, loss = (
+            np.exp(a + t * (b + t * (d + t * e)))
+            for a, b, d, e in (part[i] for part in self.cubics)
+        )
+        weight = c * half * (4 * self.gauss)
+        columns = c * loss, storage**2 + loss**2
         return np.array([np.einsum("ij,ij->i", weight, column) for column in columns])
 
-    def _tail(self, w: Array, slopes: bool) -> Array:
+    def _tail(self, w: Array) -> Array:
         storage, loss = self.lowest
         below = np.minimum(self.knots[0] / w, 1)
         angle = np.arcsin(below)
         cosines = angle - below * np.sqrt(1 - below**2)  # 2 int cos^2 over the tail
         rates = 2 * loss / below * cosines, 2 * (loss / below) ** 2 * cosines
-        columns = [rates[0], 4 * storage**2 * angle + rates[1]]
-        if slopes:  # E'' goes with w there, E' not at all
-            columns += [rates[0], 2 * rates[1]]
-        return np.array(columns)
+        return np.array([rates[0], 4 * storage**2 * angle + rates[1]])
 
 
 def _cubics(x: Array, y: Array) -> Array:

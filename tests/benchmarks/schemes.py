@@ -4,14 +4,12 @@ With s = ln(q / q0) all of them compute, of a curve of `curves.py`,
   G = int dG/ds ds, mu_H = int dmu/ds P S ds, P = erf(1 / (2 sqrt G)), S = gamma + (1 - gamma) P^2.
 """
 
-from collections.abc import Callable
 from functools import cache
 
 import numpy as np
 from curves import Curve
 from moduli import Array
 from scipy.integrate import cumulative_trapezoid, quad, trapezoid
-from scipy.interpolate import make_interp_spline
 from scipy.special import erf
 
 
@@ -101,51 +99,6 @@ def _knots(curve: Curve) -> Array:
     s = np.log(curve.modulus.knots / (curve.velocity[:, None] * curve.road.q0))
     s = np.sort(np.where((s > 0) & (s < curve.length), s, 0), axis=1)
     return s[:, (s > 0).any(axis=0)]
-
-
-def by_parts(curve: Curve, nodes: int) -> Array:
-    """mu = 4 (1 - nu^2) sigma0 (R F at q1 - int R' F ds), R = I1 / I2, F = int_0^G P S dG.
-
-    One Gauss-Legendre rule in t, s = length t^2. G from the cumulative matrix can come out below
-    zero at the first nodes of a steep front, where it is taken as 0.
-    """
-    x, w, matrix = gauss(nodes)
-    t = (1 + x) / 2
-    s = curve.length * t * t
-    weights = w * curve.length * t
-    omega = (curve.velocity * curve.road.q0)[:, None] * np.exp([*s, curve.length])
-    columns = [c.reshape(omega.shape) for c in curve.modulus.with_slopes(omega.ravel())]
-    i1, i2, slope1, slope2 = columns
-    r = i1 / i2
-    r_slope = ((slope1 - r * slope2) / i2)[:, :-1]
-    power = factors(curve)[0] * curve.power(s)
-    g_rate = i2[:, :-1] * (power * curve.length * t)
-    f = friction_integral(curve.inputs["gamma"])
-    whole = r[:, -1] * f(g_rate @ w) - (r_slope * f(np.maximum(g_rate @ matrix, 0))) @ weights
-    stiff = (1 - curve.inputs["poisson_ratio"] ** 2) * curve.inputs["pressure"]
-    return 4 * stiff * whole
-
-
-@cache
-def friction_integral(gamma: float) -> Callable[[Array], Array]:
-    """F(G) = int_0^G P S dG: G below 1e-3, then a spline of ln(F / G) over ln G, good to 1e-14."""
-    low, high = np.log(1e-3), np.log(1e18)
-    x, w, _ = gauss(20)
-    knots = np.linspace(low, high, 6001)
-    half = (knots[1] - knots[0]) / 2
-    g = np.exp(knots[:-1, None] + half * (1 + x))
-    p = erf(0.5 / np.sqrt(g))
-    parts = (p * (gamma + (1 - gamma) * p * p) * g) @ w * half
-    values = np.exp(low) + np.concatenate([[0], np.cumsum(parts)])
-    spline = make_interp_spline(knots, np.log(values) - knots, k=5)
-
-    def integral(g: Array) -> Array:
-        result = g.copy()
-        big = g > 1e-3
-        result[big] *= np.exp(spline(np.log(g[big])))
-        return result
-
-    return integral
 
 
 def log_trapezoid(curve: Curve, points: int) -> Array:
