@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import (
     Vector,
     broadcast,
@@ -19,7 +18,7 @@ from asperity.base.arguments import (
     number,
     real_array,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, refusal
+from asperity.base.diagnostics import Note, fatal_first, must_be, refusal
 from asperity.base.parameters import parameter
 from asperity.base.quantities import SHEAR_STRESS, VELOCITY
 from asperity.base.table import Column, Columns, Table
@@ -223,11 +222,8 @@ def fit_adhesion(
     shape, (p, v) = broadcast(pressure=pressure, velocity=velocity)
     measured = real_array(mu, "mu")
     if measured.shape != shape:
-        raise InvalidInput(
-            Argument("mu"),
-            f" has shape {measured.shape}",
-            MUST_BE,
-            f"that of pressure and velocity together, {shape}",
+        raise must_be(
+            "mu", f"that of pressure and velocity together, {shape}", f" has shape {measured.shape}"
         )
     held = _held(fixed)
     parameters, covariance, residual, outliers, notes = _core.fit_adhesion(

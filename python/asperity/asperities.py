@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import broadcast, choice, number, number_or_none, shaped, vector
-from asperity.base.diagnostics import MUST_BE, Argument
+from asperity.base.diagnostics import must_be
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.correction import Reading
@@ -125,11 +124,11 @@ def separation(
     """
     if (z_max is None) != (z_min is None):
         missing = "z_min" if z_min is None else "z_max"
-        raise InvalidInput(Argument(missing), MUST_BE, "given with the other of z_max, z_min")
+        raise must_be(missing, "given with the other of z_max, z_min")
     shape, (p, modulus) = broadcast(pressure=pressure, effective_modulus=effective_modulus)
     heights = np.empty(0) if peaks is None else vector(peaks, "peaks")
     if peaks is not None and not heights.size:
-        raise InvalidInput(Argument("peaks"), " has 0 entries", MUST_BE, "3 or more")
+        raise must_be("peaks", "3 or more", " has 0 entries")
     effective, rigid, state = _core.separation(
         p,
         modulus,

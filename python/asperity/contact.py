@@ -9,9 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import Shape, choice, number, number_or_none, real_array, shaped
-from asperity.base.diagnostics import MUST_BE, Argument, Must, Note, fatal_first, refusal
+from asperity.base.diagnostics import (
+    Note,
+    fatal_first,
+    must_be,
+    must_have,
+    refusal,
+)
 from asperity.base.quantities import (
     FIRST_WAVENUMBER,
     MODULUS,
@@ -283,11 +288,9 @@ def _over_wavenumber(
     if wavenumber is not None:
         q = real_array(wavenumber, "wavenumber")
         if q.ndim > 1:
-            raise InvalidInput(
-                Argument("wavenumber"), f" has {q.ndim} dimensions", Must(": must have "), "0 or 1"
-            )
+            raise must_have("wavenumber", "0 or 1", f" has {q.ndim} dimensions")
         if not q.size:
-            raise InvalidInput(Argument("wavenumber"), " has 0 entries", MUST_BE, "1 or more")
+            raise must_be("wavenumber", "1 or more", " has 0 entries")
         more = q.shape
     return _at_points(function, spectrum, rubber, points, model, direction, q, more)
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, vector
-from asperity.base.diagnostics import MUST_BE, Argument, Must, valued
+from asperity.base.diagnostics import Argument, Must, must_be, valued
 from asperity.base.parameters import parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, HEIGHT, RMS_HEIGHT, SPACING
 from asperity.base.value import CoreValue, Value, value
@@ -284,7 +284,7 @@ class GreenwoodWilliamson(Value):
         peaks = np.empty(0) if self.peaks is None else vector(self.peaks, "peaks")
         if self.peaks is not None:
             if not peaks.size:
-                raise InvalidInput(Argument("peaks"), " has 0 entries", MUST_BE, "3 or more")
+                raise must_be("peaks", "3 or more", " has 0 entries")
             self._set(peaks=peaks)
         macro = reading, self.rms_height, self.q0
         self._set(_core=_core.GreenwoodWilliamson(self.z_max, self.z_min, peaks, *macro))
@@ -334,9 +334,7 @@ class PeaksThenGreenwoodWilliamson(Value):
         heights, z_max, z_min = _profile(self)
         z_min = z_min if self.z_min is None else self.z_min
         if z_min is None:
-            raise InvalidInput(
-                Argument("z_min"), MUST_BE, "given where heights_or_map is no HeightMap"
-            )
+            raise must_be("z_min", "given where heights_or_map is no HeightMap")
         self._set(heights=heights, z_max=z_max, z_min=z_min)
         peaks = _core.LocalPeaks(heights, z_max)
         macro = reading, self.rms_height, self.q0
@@ -363,11 +361,7 @@ def _profile(correction: Any) -> tuple[Array, float, float | None]:
     z_max = correction.z_max
     if isinstance(source, HeightMap):
         if correction.min_distance is None:
-            raise InvalidInput(
-                Argument("min_distance"),
-                MUST_BE,
-                "given with a HeightMap, for instance 2 pi / q0 [m]",
-            )
+            raise must_be("min_distance", "given with a HeightMap, for instance 2 pi / q0 [m]")
         heights = source.local_peaks(min_distance=correction.min_distance)
         heights.setflags(write=False)
         if len(heights) < 3:
@@ -386,8 +380,6 @@ def _profile(correction: Any) -> tuple[Array, float, float | None]:
             Argument("min_distance"), ": only goes with a HeightMap, these are the peaks' heights"
         )
     if len(heights) < 3:
-        raise InvalidInput(
-            Argument("heights_or_map"), f" has {len(heights)} entries", MUST_BE, "3 or more"
-        )
+        raise must_be("heights_or_map", "3 or more", f" has {len(heights)} entries")
     correction._set(heights_or_map=heights)
     return heights, float(heights.max()) if z_max is None else z_max, None

@@ -24,7 +24,7 @@ from asperity.base.arguments import (
     real_array,
     vector,
 )
-from asperity.base.diagnostics import Argument, Note, refusal, valued
+from asperity.base.diagnostics import Argument, Note, refusal, unfit
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.rubber import Extrapolation, MasterCurve, PronySeries, Rubber, extrapolation_number
@@ -126,9 +126,7 @@ class MasterCurveBuild(HasShiftFactors):
             covariance = np.array(real_array(self.covariance, "covariance"))
             if covariance.shape != (n, n) or not np.isfinite(covariance).all():
                 problem = f"must be finite, of shape ({n}, {n})"
-                raise InvalidInput(
-                    Argument("covariance"), " = ", valued(covariance), f": {problem}"
-                )
+                raise unfit("covariance", covariance, problem)
             self._set(covariance=frozen(covariance))
         self._set(_core=self.shift_factors._core)
 
@@ -246,12 +244,7 @@ def build_master_curve(
     if isinstance(vertical_shift, str):
         if vertical_shift != "T/T_ref":
             allowed = 'must be None, "T/T_ref" or an array of b_T'
-            raise InvalidInput(
-                Argument("vertical_shift"),
-                " = ",
-                valued(vertical_shift, quoted(vertical_shift)),
-                f": {allowed}",
-            )
+            raise unfit("vertical_shift", vertical_shift, allowed, quoted(vertical_shift))
         kind = 1
     elif vertical_shift is not None:
         kind, table = 2, vector(vertical_shift, "vertical_shift")

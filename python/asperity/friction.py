@@ -22,7 +22,7 @@ from asperity.base.arguments import (
     real_array,
     whole,
 )
-from asperity.base.diagnostics import Argument, Note, fatal_first, valued
+from asperity.base.diagnostics import Argument, Note, fatal_first, unfit
 from asperity.contact import Form, Method, contact_model, implausible_notes
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
@@ -195,12 +195,7 @@ def friction(
         turned["direction"] = _shaped(np.full(np.size(p), angle), shape)
     if heating is None:
         if which:
-            raise InvalidInput(
-                Argument("branch"),
-                " = ",
-                valued("hot", '"hot"'),
-                ": needs heating=, without which there is one",
-            )
+            raise unfit("branch", "hot", "needs heating=, without which there is one", '"hot"')
         core_result = _core.friction(*points)  # which refuses what cannot be
         absurd = implausible_notes(surface, solid, p, v)
         result = _made(core_result, shape, (*solid.notes, *absurd, *along_x), turned)
@@ -276,13 +271,6 @@ def _check_temperature(
     temperature: ArrayLike | None, shift: TemperatureShift | None, law: TemperatureShift | None
 ) -> None:
     if temperature is None and shift is not None:
-        raise InvalidInput(
-            Argument("shift"), " = ", valued(shift), ": needs temperature=, at which to take a_T"
-        )
+        raise unfit("shift", shift, "needs temperature=, at which to take a_T")
     if temperature is not None and law is None:
-        raise InvalidInput(
-            Argument("temperature"),
-            " = ",
-            valued(temperature),
-            ": needs shift=, which gives a_T(T)",
-        )
+        raise unfit("temperature", temperature, "needs shift=, which gives a_T(T)")

@@ -8,7 +8,7 @@ from typing import Any, Literal, get_args
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import choice, flag, number_or_none, of_kind, whole
-from asperity.base.diagnostics import MUST_BE, Argument, refusal
+from asperity.base.diagnostics import Argument, must_be, refusal
 from asperity.io.objects import surface_from
 from asperity.spectrum import LineSpectrum, TabulatedSpectrum
 from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, PixelSize, around
@@ -34,12 +34,7 @@ def prepared(window: Window, detrend: Detrend | None) -> tuple[int, int]:
 def core_map(surface: Any) -> Any:
     """Return the core's object of a map."""
     if isinstance(surface, LineScan):
-        raise InvalidInput(
-            Argument("surface"),
-            " = a LineScan",
-            MUST_BE,
-            "a HeightMap; line_spectrum takes line scans",
-        )
+        raise must_be("surface", "a HeightMap; line_spectrum takes line scans", " = a LineScan")
     return of_kind(surface, "surface", HeightMap)._core
 
 
@@ -137,16 +132,14 @@ def power_spectrum(
         surface = surface_from(surface) or surface
     if flag(directional, "directional"):
         if isinstance(surface, LineScan):
-            raise InvalidInput(Argument("directional"), NO_DIRECTIONS, MUST_BE, "False")
+            raise must_be("directional", "False", NO_DIRECTIONS)
         if tiles is not None or part != "all" or not isinstance(surface, HeightMap):
-            raise InvalidInput(
-                Argument("directional"), " = True", MUST_BE, "False by tiles and with a part"
-            )
+            raise must_be("directional", "False by tiles and with a part", " = True")
         core = _core.directional_spectrum(core_map(surface), *how, several)
         return around(TabulatedSpectrum, core, preparation=preparation)
     if tiles is not None or not isinstance(surface, HeightMap | LineScan):
         if part != "all":
-            raise InvalidInput(Argument("part"), f' = "{part}"', MUST_BE, '"all" by tiles')
+            raise must_be("part", '"all" by tiles', f' = "{part}"')
         return power_spectrum_of(
             source_of(surface, pixel_size),
             window=window,

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, frozen, number, of_kind, path_of
-from asperity.base.diagnostics import MUST_BE, Argument, valued
+from asperity.base.diagnostics import must_be, refusal, unfit
 from asperity.base.parameters import parameter
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value
@@ -164,7 +164,7 @@ class ScanContact(Value):
         named = isinstance(self.periodic, str) and self.periodic in _PLACE
         if not named and self.periodic is not True:
             allowed = 'must be "blend", "mirror" or True'
-            raise InvalidInput(Argument("periodic"), " = ", valued(self.periodic), f": {allowed}")
+            raise unfit("periodic", self.periodic, allowed)
         core = of_kind(self.height_map, "height_map", HeightMap)._core
         self._set(tolerance=number(self.tolerance, "tolerance"))
         self._set(_core=_core.ScanContact(core, _PLACE[self.periodic], self.tolerance))
@@ -201,7 +201,7 @@ class ScanContact(Value):
         (0, True)
         """
         if not callable(tell):
-            raise InvalidInput(Argument("tell"), " = ", valued(tell), MUST_BE, "callable")
+            raise refusal("tell", tell, "callable")
         watched: AbstractContextManager[None] = _core.WatchedContacts(self._core, tell)
         return watched
 
@@ -257,7 +257,5 @@ def _with_contacts(arguments: Mapping[str, Any], contacts: ArrayLike) -> ScanCon
 def _rows(contacts: ArrayLike) -> Array:
     rows = np.asarray(contacts, dtype=np.float64)
     if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
-        raise InvalidInput(
-            Argument("contacts"), f" has the shape {rows.shape}", MUST_BE, f"(n, {len(COLUMNS)})"
-        )
+        raise must_be("contacts", f"(n, {len(COLUMNS)})", f" has the shape {rows.shape}")
     return rows

@@ -18,7 +18,7 @@ from asperity.base.arguments import (
     number,
     over,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, refusal
+from asperity.base.diagnostics import Argument, must_be, refusal
 from asperity.base.parameters import parameter
 from asperity.base.quantities import DECADES, TEMPERATURE
 from asperity.base.table import Column, Columns, Table
@@ -71,7 +71,7 @@ class _FittedLaw(_Law):
         lowest, highest = self.lowest_temperature, self.highest_temperature
         if (lowest is None) != (highest is None):
             known, missing = ends if highest is None else ends[::-1]
-            raise InvalidInput(Argument(missing), MUST_BE, f"given where {known} is")
+            raise must_be(missing, f"given where {known} is")
         if lowest is not None and highest is not None and not 0 < lowest < highest:
             raise refusal(
                 "lowest_temperature",

@@ -22,7 +22,7 @@ from asperity.base.arguments import (
     over,
     shaped,
 )
-from asperity.base.diagnostics import Argument, Must, refusal
+from asperity.base.diagnostics import Argument, Must, must_be, refusal
 from asperity.base.parameters import parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, LAST_WAVENUMBER, RMS_HEIGHT
 from asperity.base.table import Column, Columns, Table
@@ -284,9 +284,7 @@ class TabulatedSpectrum(Rows, _Spectrum):
             self._set(**{name: two_axes(getattr(self, name), name, "harmonics")})
         if (self.cosine is None) != (self.sine is None):
             missing = "sine" if self.sine is None else "cosine"
-            raise InvalidInput(
-                Argument(missing), " = None", Must(": must be "), "given with the other"
-            )
+            raise must_be(missing, "given with the other", " = None")
 
     def __post_init__(self) -> None:
         for name in ("q1", "slope_ratio"):

@@ -16,7 +16,7 @@ from asperity.base.arguments import (
     vector,
     vector_or_none,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, Must, valued
+from asperity.base.diagnostics import Argument, Must, must_be, must_have, valued
 from asperity.base.table import Column, Columns, Table
 from asperity.surface import like
 
@@ -47,12 +47,7 @@ class Rows(Table):
         for name in ("count", "standard_error", "flag", "correlation"):
             column = getattr(self, name)
             if column is not None and column.size == 0:  # to the core, a column that is not given
-                raise InvalidInput(
-                    Argument(name),
-                    " has 0 entries",
-                    Must(": must have "),
-                    "one for each wavenumber",
-                )
+                raise must_have(name, "one for each wavenumber", " has 0 entries")
         for name in ("skewness", "kurtosis", "curvature_kurtosis"):
             self._set(**{name: number_or_none(getattr(self, name), name)})
         if (self.skewness is None) != (self.kurtosis is None):
@@ -137,7 +132,7 @@ def _flags(flags: Any) -> NDArray[np.uint8] | None:
     wrong = ~np.isin(numbers, range(8))
     if wrong.any():
         i = int(wrong.argmax())
-        raise InvalidInput(f"flag[{i}] = {numbers[i]}", MUST_BE, "a whole number from 0 to 7")
+        raise must_be("", "a whole number from 0 to 7", f"flag[{i}] = {numbers[i]}")
     return frozen(numbers.astype(np.uint8))
 
 

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import (
     Array,
     Conversion,
@@ -22,7 +21,7 @@ from asperity.base.arguments import (
     real_numbers,
     whole,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, refusal
+from asperity.base.diagnostics import must_be, refusal
 from asperity.base.iso_25178 import height_parameters, measured_parameters
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value
@@ -76,9 +75,7 @@ def _heights(heights: Any, axes: str) -> NDArray[Any]:
     single = array.dtype.kind == "f" and array.dtype.itemsize == 4
     array = array.astype(np.float32 if single else np.float64, copy=False)
     if array.ndim != axes.count("n"):
-        raise InvalidInput(
-            Argument("heights"), f" has shape {array.shape}", MUST_BE, f"of shape {axes}"
-        )
+        raise must_be("heights", f"of shape {axes}", f" has shape {array.shape}")
     if masked:
         array = np.where(heights.mask, array.dtype.type(np.nan), array)
     packed = any(stride % array.itemsize for stride in array.strides)  # fields of packed records

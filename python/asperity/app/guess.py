@@ -7,7 +7,7 @@ from pathlib import Path
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import quoted
-from asperity.base.diagnostics import Must
+from asperity.base.diagnostics import must_have
 from asperity.io.column_names import cells_of, find_header
 from asperity.io.source import read_source
 
@@ -49,9 +49,7 @@ def guess_columns(path: Path) -> Guess:
     lines = read_source(path).lines
     header = find_header(lines)
     if header is None:
-        raise InvalidInput(
-            "no line names columns", Must(": must have "), "one above the numbers", where=path
-        )
+        raise must_have("", "one above the numbers", "no line names columns", where=path)
     names = [name for name in header.names if name]
     columns: dict[str, str] = {}
     for quantity, pattern in _NAMED.items():

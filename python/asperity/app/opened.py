@@ -7,7 +7,7 @@ from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.app.files import MOST_FILES, Folder, plain
-from asperity.base.diagnostics import MUST_BE, Argument, Must
+from asperity.base.diagnostics import must_be, must_have
 from asperity.io.archive import Archive
 from asperity.io.toml import read_toml_text
 from asperity.scene.scene import check_tables
@@ -37,7 +37,7 @@ def opened(dropped: Dropped, folder: Folder) -> tuple[str, Tables, list[str]]:
     def here(wanted: str) -> str:
         shown = plain(wanted)
         if shown not in contents:
-            raise InvalidInput(f"{name} names {shown}", MUST_BE, "dropped together with the scene")
+            raise must_be("", "dropped together with the scene", f"{name} names {shown}")
         kept.append(folder.keep(shown, contents[shown]))
         return kept[-1]
 
@@ -58,9 +58,7 @@ def _unpacked(name: str, content: bytes) -> list[tuple[str, bytes]]:
     try:
         archive = Archive(io.BytesIO(content))
         if len(archive.members) > MOST_FILES:
-            raise InvalidInput(
-                f"holds {len(archive.members)} files", MUST_BE, f"at most {MOST_FILES}"
-            )
+            raise must_be("", f"at most {MOST_FILES}", f"holds {len(archive.members)} files")
         return [(one.filename, archive.open(one).read_all()) for one in archive.members]
     except InvalidInput as error:
         raise error.within(PurePosixPath(shown)) from error
@@ -71,9 +69,7 @@ def _unpacked(name: str, content: bytes) -> list[tuple[str, bytes]]:
 
 def _tables(name: str, content: bytes) -> Tables:
     if len(content) > _MOST_TEXT:
-        raise InvalidInput(
-            f"has {len(content)} bytes", Must(": must have "), f"at most {_MOST_TEXT}", where=name
-        )
+        raise must_have("", f"at most {_MOST_TEXT}", f"has {len(content)} bytes", where=name)
     try:
         tables = read_toml_text(content)
     except InvalidInput as error:
@@ -81,7 +77,7 @@ def _tables(name: str, content: bytes) -> Tables:
     check_tables(PurePosixPath(name), tables)  # type: ignore[arg-type]  # it only names it
     for key, table in tables.items():
         if not isinstance(table, dict):
-            raise InvalidInput(Argument(key), MUST_BE, "a table", where=name)
+            raise must_be(key, "a table", where=name)
     return tables
 
 

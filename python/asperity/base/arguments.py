@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal
+from asperity.base.diagnostics import Argument, Note, must_be, refusal
 from asperity.base.diagnostics import brief as brief
 
 Array = NDArray[np.float64]
@@ -156,7 +156,7 @@ def covariance_matrix(value: Any) -> Array:
     """Return the covariance of three parameters, read-only."""
     matrix = real_array(value, "covariance")
     if matrix.shape != (3, 3):
-        raise InvalidInput(Argument("covariance"), f" has shape {matrix.shape}", MUST_BE, "(3, 3)")
+        raise must_be("covariance", "(3, 3)", f" has shape {matrix.shape}")
     if not np.isfinite(matrix).all() or np.diag(matrix).min() < 0:
         raise refusal("covariance", value, "finite, its diagonal not negative")
     return frozen(np.array(matrix, order="C"))

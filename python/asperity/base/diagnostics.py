@@ -361,3 +361,20 @@ def refusal(
         code="invalid-value",
         where=where,
     )
+
+
+def unfit(argument: str, value: Any, problem: str, text: str = "") -> InvalidInput:
+    """Return the error "argument = value: problem", `value` shown as `text`."""
+    return InvalidInput(Argument(argument), " = ", valued(value, text), f": {problem}")
+
+
+def must_be(argument: str, allowed: str, found: str = "", *, where: object = ()) -> InvalidInput:
+    """Return the error "where: argument found: must be allowed"; it need not be about one."""
+    sentence = Argument(argument), found, MUST_BE, allowed
+    return InvalidInput(*filter(None, sentence), where=where)
+
+
+def must_have(argument: str, allowed: str, found: str = "", *, where: object = ()) -> InvalidInput:
+    """Return the error "where: argument found: must have allowed"; it need not be about one."""
+    sentence = Argument(argument), found, Must(": must have "), allowed
+    return InvalidInput(*filter(None, sentence), where=where)

@@ -3,8 +3,7 @@
 from contextlib import suppress
 from typing import Any
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, valued
+from asperity.base.diagnostics import unfit
 
 _UNTOLD = 8
 
@@ -13,7 +12,7 @@ def accepted(executor: Any) -> Any:
     """Return what takes the tasks of an executor."""
     if not callable(getattr(executor, "submit", None)):
         allowed = "must have the submit of concurrent.futures"
-        raise InvalidInput(Argument("executor"), " = ", valued(executor), f": {allowed}")
+        raise unfit("executor", executor, allowed)
     if callable(getattr(executor, "get_executor", None)):  # Dask: equal tasks are not one task
         return executor.get_executor(pure=False)
     return executor

@@ -11,8 +11,7 @@ import numpy as np
 from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal
-from asperity.cli.fit_scene_command import fit_of_scene
+from asperity.base.diagnostics import Argument, Note, must_be, refusal
 from asperity.cli.friction_commands import (
     band_progress,
     check_outputs,
@@ -20,11 +19,13 @@ from asperity.cli.friction_commands import (
     write_outputs,
 )
 from asperity.cli.options import typed_options
+from asperity.cli.streams import print_stderr
 from asperity.io import plausible
 from asperity.io.fields import in_keys, nearest
 from asperity.io.read_friction import read_friction
 from asperity.io.table import Table
 from asperity.plot import fit as plot_fit
+from asperity.plot.fit import scene_fit_figure
 from asperity.scene.experiment import (
     PARAMETERS,
     Experiment,
@@ -33,7 +34,67 @@ from asperity.scene.experiment import (
     nearest_pressure,
     pressures,
 )
+from asperity.scene.fit import fit_scene
+from asperity.scene.results import scene_inputs
 from asperity.scene.scene import load_scene
+from asperity.scene.scene_fit import SceneFit
+
+_OF_POINTS = {
+    "pressure_pa": "pressure",
+    "velocity_m_s": "velocity",
+    "temperature_k": "temperature",
+    "measured": "measured",
+    "mu": "mu",
+    "mu_low": "band_lower",
+    "mu_high": "band_upper",
+    "left_out": "left_out",
+    "numbers_error": "numbers_error",
+    "inputs_error": "inputs_error",
+    "model_error": "model_error",
+}
+
+
+def fit_of_scene(args: Namespace) -> None:
+    """Print or write a row a point; what was found and what may be published on stderr."""
+    path = FilePath(args.measured)
+    outputs = check_outputs(args)
+    scene = load_scene(args.scene, for_friction=True)
+    refuse_overwrite(outputs, [*scene.sources, path])
+    try:
+        how = {"priors": dict(args.prior or []), "scatter": args.scatter}
+        made = fit_scene(scene, path, free=args.free or [], **how)
+    except InvalidInput as error:
+        options = {"free": "--free", "priors": "--prior", "scatter": "--scatter"}
+        raise error.said(partial(in_keys, names=options)) from error
+    inputs = {**scene_inputs(scene), "measured": args.measured, **_found(made)}
+    given = {key: getattr(made, name) for key, name in _OF_POINTS.items()}
+    columns = {key: _cells(column) for key, column in given.items() if column is not None}
+    table = Table("fit", [inputs], made.notes, columns)
+    write_outputs(args, table, lambda picture: scene_fit_figure(made, picture), _lines(made))
+    print_stderr(f"{made.sentence}\n")
+
+
+def _found(fit: SceneFit) -> dict[str, Any]:
+    return {
+        "found": {key: [fit.lower[key], fit.value[key], fit.upper[key]] for key in fit.free},
+        "covariance": fit.covariance.tolist(),
+        "slopes": dict(fit.slopes),
+        "scatter": fit.scatter,
+        **{name: getattr(fit, name) for name in ("rms", "rms_left_out", "rms_same_mu", "inside")},
+        "sentence": fit.sentence,
+    }
+
+
+def _lines(fit: SceneFit) -> dict[str, float | None]:
+    result: dict[str, float | None] = {}
+    for key in fit.free:
+        result |= {key: fit.value[key], f"{key}_low": fit.lower[key], f"{key}_high": fit.upper[key]}
+    return result
+
+
+def _cells(column: Any) -> list[Any]:
+    return [x if np.isfinite(x) else "" for x in column.tolist()]
+
 
 _APART = 0.2  # of ln pressure
 _WARMER = 2.0  # [K] between points of one temperature
@@ -68,10 +129,10 @@ def _fit_adhesion(args: Namespace) -> None:
         measured = read_friction(path)
     if measured.temperature is not None and np.ptp(measured.temperature) > _WARMER:
         low, high = measured.temperature.min(), measured.temperature.max()
-        raise InvalidInput(
-            f"has temperatures from {low:.5g} to {high:.5g} K",
-            MUST_BE,
+        raise must_be(
+            "",
             "of one temperature, unless --free is given",
+            f"has temperatures from {low:.5g} to {high:.5g} K",
             where=path,
         )
     scene = load_scene(args.scene)

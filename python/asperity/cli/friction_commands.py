@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput
+from asperity.app.serve import serve
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Argument
 from asperity.base.extras import to_install
@@ -21,11 +22,14 @@ from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
 from asperity.draw.figure import check_plot
 from asperity.draw.style import drawn_in
-from asperity.io.fields import MOST_ROWS
+from asperity.io.fields import MOST_ROWS, refuse
 from asperity.io.files import check_directory, check_output, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.plot import curves as plot
 from asperity.plot import friction as plot_friction
+from asperity.plot.design import design_figure
+from asperity.report.make import write_report
+from asperity.scene.design import design as designed
 from asperity.scene.model import Progress, Scene
 from asperity.scene.results import friction_table, scene_inputs
 from asperity.scene.scene import load_scene
@@ -154,3 +158,50 @@ def write_outputs(
 
 def _bytes(text: str) -> bytes:
     return text.encode(errors="backslashreplace")  # file names need not be UTF-8
+
+
+def app(args: Namespace) -> None:
+    """Serve until Ctrl-C; the address is one line on standard output."""
+    serve(
+        args.host,
+        args.port,
+        browser=not args.no_browser,
+        tell=lambda address: print_stdout(f"{address}\n"),
+    )
+
+
+def report(args: Namespace) -> None:
+    """Compute, draw and write a report."""
+    paths = [FilePath(name) for name in args.scene]
+    try:
+        write_report(paths, FilePath(args.output), args.title, progress)
+    except ImportError as error:  # of what the extra brings
+        raise InvalidInput(f"report: {error}") from error
+
+
+def design(args: Namespace) -> None:
+    """Print or write the table, a row a part of the inputs and a point, and its picture."""
+    outputs = check_outputs(args)
+    scene = load_scene(args.scene, for_friction=True)
+    if scene.others:
+        problem = "several temperatures or directions are for asperity friction alone: must be one"
+        refuse(scene.path, "[conditions]", problem)
+    refuse_overwrite(outputs, scene.sources)
+    found = designed(scene)
+    rows = found.worths
+    columns: dict[str, list[Any]] = {
+        "pressure_pa": [row.pressure for row in rows],
+        "velocity_m_s": [row.velocity for row in rows],
+        "part": [row.part for row in rows],
+        "change": [row.change for row in rows],
+        "from": [_cell(row.lower) for row in rows],
+        "to": [_cell(row.upper) for row in rows],
+        "dma_temperature_k": [_cell(row.temperature) for row in rows],
+        "mu_change": [float(row.mu) for row in rows],
+    }
+    table = Table("design", [scene_inputs(scene)], found.result.notes, columns)
+    write_outputs(args, table, lambda picture: design_figure(found, picture))
+
+
+def _cell(found: float | None) -> float | str:
+    return "" if found is None else found

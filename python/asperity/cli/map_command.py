@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import MUST_BE, Argument, Note
+from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.draw.style import drawn_in
+from asperity.fmu.export import PLATFORMS, export_fmu, platforms
 from asperity.friction import friction
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.grid import check_export, grid_file
@@ -39,7 +40,7 @@ _TRUTH = 1e-9  # rtol of what a picture compares the map with
 def friction_map_of(args: Namespace) -> None:
     """Build, certify, write and draw the map of a scene, or tell what a file holds."""
     if (args.scene is None) == (args.info is None):
-        raise InvalidInput(Argument("map"), MUST_BE, "given a SCENE.toml, or --info FILE")
+        raise must_be("map", "given a SCENE.toml, or --info FILE")
     asked = {name: getattr(args, name) for name in ("pressure", "velocity", "rtol", "checked")}
     flags = [
         name for name in (*asked, "output", "plot", "style") if getattr(args, name) is not None
@@ -211,3 +212,18 @@ def _short(value: Any) -> str:
     if isinstance(value, tuple):
         return f"{value[0]:.6g} to {value[1]:.6g}"
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def fmu(args: Namespace) -> None:
+    """Write the FMU of a map, and tell for which platforms it has binaries."""
+    source, output = FilePath(args.map), FilePath(args.output)
+    check_output(output)
+    refuse_overwrite([output], [source])
+    read = read_map(source)
+    with rename_in_errors(None, {one: f"--{one}" for one in ("name", "points")}):
+        export_fmu(read, output, name=args.name, fmi=args.fmi, points=args.points)
+    missing = [one for one in PLATFORMS if one not in platforms()]
+    lines = [f"binaries = {', '.join(platforms()) or 'none'}"]
+    if missing:
+        lines.append(f"from source alone = {', '.join(missing)}")
+    print_stdout("".join(f"{line}\n" for line in lines))

@@ -155,3 +155,14 @@ def _number_or_none(text: str) -> float | None:
         return Typed(text)
     except ValueError:
         return None
+
+
+def option(to: argparse.ArgumentParser, name: str, text: str, read: Any = None, **how: Any) -> None:
+    """Add an option to a verb: "--name VALUE", what the help says, and what reads a value. Without
+    a word for the value, and with nothing that says of which kind it is, it is a switch."""
+    flag, _, value = name.partition(" ")
+    if value:
+        how["metavar"] = value
+    if read is not None:
+        how["type"] = read
+    to.add_argument(flag, help=text, **(how or {"action": "store_true"}))

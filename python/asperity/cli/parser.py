@@ -4,16 +4,15 @@ import argparse
 from collections.abc import Callable
 from importlib import import_module
 
-from asperity.cli import design_command, fit_command, map_command, spectrum_command
+from asperity.cli import fit_command, map_command, spectrum_command
 from asperity.cli import friction_commands as commands
-from asperity.cli.app_command import app
-from asperity.cli.fmu_command import fmu
 from asperity.cli.options import (
     Parser,
     Version,
     keys,
     number,
     numbers,
+    option,
     pairs,
     pixel_size,
     points,
@@ -23,9 +22,8 @@ from asperity.cli.options import (
     tile,
     whole,
 )
-from asperity.cli.report_command import report
-from asperity.cli.rubber_parser import add_rubber
-from asperity.cli.sweep_parser import add_sweep
+from asperity.cli.rubber_command import add_rubber
+from asperity.cli.sweep_command import add_sweep
 from asperity.draw.style import STYLES
 from asperity.measured_spectrum import WINDOWS
 
@@ -64,61 +62,49 @@ def parser() -> argparse.ArgumentParser:
         return added
 
     def style(to: argparse.ArgumentParser) -> None:
-        to.add_argument(
+        option(
+            to,
             "--style",
+            "of pictures: print (default), single for one of two columns, dark for screens",
             choices=STYLES,
-            help="of pictures: print (default), single for one of two columns, dark for screens",
         )
 
     def pictures(to: argparse.ArgumentParser) -> None:
-        to.add_argument("--plot", metavar="PICTURE", help="draw it, .png, .svg or .pdf")
+        option(to, "--plot PICTURE", "draw it, .png, .svg or .pdf")
         style(to)
 
     def notes(to: argparse.ArgumentParser) -> None:
-        to.add_argument(
+        option(
+            to,
             "--notes",
+            "on the terminal: the gravest, alike ones joined (default), or all of them",
             choices=("few", "all"),
             default="few",
-            help="on the terminal: the gravest, alike ones joined (default), or all of them",
         )
 
     def outputs(to: argparse.ArgumentParser) -> None:
-        to.add_argument("--output", metavar="FILE", help="where to write (default: the terminal)")
+        option(to, "--output FILE", "where to write (default: the terminal)")
         pictures(to)
         notes(to)
-        to.add_argument("--json", action="store_true", help="write JSON instead of CSV")
+        option(to, "--json", "write JSON instead of CSV")
 
     def of_scan(
         to: argparse.ArgumentParser, channel: int | None = None, detrend: str | None = None
     ) -> None:
-        to.add_argument(
-            "--pixel-size", type=pixel_size, metavar="DY,DX", help="[m], where the file states none"
-        )
-        to.add_argument(
-            "--unit",
-            metavar="UNIT",
-            help="of the heights (m, mm, um, nm, pm), where the file states none",
-        )
-        to.add_argument(
-            "--channel",
-            type=whole,
-            default=channel,
-            help="of a file with several maps (default: 0)",
-        )
-        to.add_argument(
+        option(to, "--pixel-size DY,DX", "[m], where the file states none", pixel_size)
+        option(to, "--unit UNIT", "of the heights (m, mm, um, nm, pm), where the file states none")
+        option(to, "--channel", "of a file with several maps (default: 0)", whole, default=channel)
+        option(
+            to,
             "--detrend",
+            "what is taken off the heights first (default: plane)",
             choices=("plane", "quadratic", "offset", "none"),
             default=detrend,
-            help="what is taken off the heights first (default: plane)",
         )
 
     def directory(to: argparse.ArgumentParser, default: str) -> None:
-        to.add_argument(
-            "--output", metavar="DIR", default=default, help="directory (default: %(default)s)"
-        )
-        to.add_argument(
-            "--force", action="store_true", help="replace the files of an earlier run there"
-        )
+        option(to, "--output DIR", "directory (default: %(default)s)", default=default)
+        option(to, "--force", "replace the files of an earlier run there")
         style(to)
 
     demo = verb(
@@ -143,17 +129,12 @@ def parser() -> argparse.ArgumentParser:
         "scene.toml --points 400 --output area.csv --plot area.png",
     )
     area.add_argument("scene", metavar="SCENE.toml")
-    area.add_argument(
-        "--points",
-        type=points,
-        default=200,
-        help="wavenumbers, logarithmic (default: %(default)s)",
-    )
+    option(area, "--points", "wavenumbers, logarithmic (default: %(default)s)", points, default=200)
     outputs(area)
 
     design = verb(
         "design",
-        design_command.design,
+        commands.design,
         "what a tenth more of each decade of modulus and roughness, and of each number, is worth",
         "scene.toml --output design.csv --plot design.png",
     )
@@ -168,45 +149,33 @@ def parser() -> argparse.ArgumentParser:
     )
     spectrum.add_argument("file", metavar="FILE")
     of_scan(spectrum, channel=0, detrend="plane")
-    spectrum.add_argument(
-        "--window",
-        choices=WINDOWS,
-        default=WINDOWS[0],
-        help="default: %(default)s",
-    )
-    spectrum.add_argument(
-        "--max-dropouts",
-        type=number,
+    option(spectrum, "--window", "default: %(default)s", choices=WINDOWS, default=WINDOWS[0])
+    option(
+        spectrum,
+        "--max-dropouts SHARE",
+        "refuse a scan with more of its points missing (default: %(default)s)",
+        number,
         default=0.10,
-        metavar="SHARE",
-        help="refuse a scan with more of its points missing (default: %(default)s)",
     )
-    spectrum.add_argument(
-        "--q-min", type=number, metavar="Q", help="fit above [1/m] (default: what is reliable)"
-    )
-    spectrum.add_argument(
-        "--q-max", type=number, metavar="Q", help="fit below [1/m] (default: what is reliable)"
-    )
-    spectrum.add_argument(
+    option(spectrum, "--q-min Q", "fit above [1/m] (default: what is reliable)", number)
+    option(spectrum, "--q-max Q", "fit below [1/m] (default: what is reliable)", number)
+    option(
+        spectrum,
         "--method",
+        "of the fit: weighted, with a roll-off where there is one, or Eq. 28 alone "
+        "(default: %(default)s)",
         choices=("least-squares", "slope"),
         default="least-squares",
-        help="of the fit: weighted, with a roll-off where there is one, or Eq. 28 alone "
-        "(default: %(default)s)",
     )
-    spectrum.add_argument(
-        "--tiles",
-        type=tile,
-        metavar="NY,NX",
-        help="points of a tile, one number or two: a .npy file or a Zarr array that need not fit "
+    option(
+        spectrum,
+        "--tiles NY,NX",
+        "points of a tile, one number or two: a .npy file or a Zarr array that need not fit "
         "in memory",
+        tile,
     )
-    spectrum.add_argument(
-        "--overlap", type=share, metavar="SHARE", help="of neighbouring tiles (default: 0.5)"
-    )
-    spectrum.add_argument(
-        "--threads", type=whole, metavar="N", help="that share the tiles (default: 1)"
-    )
+    option(spectrum, "--overlap SHARE", "of neighbouring tiles (default: 0.5)", share)
+    option(spectrum, "--threads N", "that share the tiles (default: 1)", whole)
     outputs(spectrum)
 
     outputs(add_rubber(verb))
@@ -225,34 +194,29 @@ def parser() -> argparse.ArgumentParser:
         "differ, pressure_pa (pressure_kpa, pressure_mpa), where temperatures do, temperature_k or "
         "temperature_c",
     )
-    fit.add_argument(
-        "--hold",
-        type=pairs,
-        metavar="NAME=VALUE,...",
-        help="keep shear_stress_pa, reference_velocity_m_s or width",
+    option(
+        fit, "--hold NAME=VALUE,...", "keep shear_stress_pa, reference_velocity_m_s or width", pairs
     )
-    fit.add_argument(
-        "--free",
-        type=keys,
+    option(
+        fit,
+        "--free KEY,...",
+        "fit these numbers of the scene instead, as surface.q1_per_m, rubber.moduli_pa[2]",
+        keys,
         action="extend",
-        metavar="KEY,...",
-        help="fit these numbers of the scene instead, as surface.q1_per_m, rubber.moduli_pa[2]",
     )
-    fit.add_argument(
-        "--prior",
-        type=prior,
+    option(
+        fit,
+        "--prior KEY=VALUE,DEVIATION[,ln]",
+        "what is known of one of them, with a standard deviation of it or of its logarithm",
+        prior,
         action="append",
-        metavar="KEY=VALUE,DEVIATION[,ln]",
-        help="what is known of one of them, with a standard deviation of it or of its logarithm",
     )
-    fit.add_argument(
-        "--compare", action="store_true", help="fit nothing: hold the scene against the points"
-    )
-    fit.add_argument(
-        "--scatter",
-        type=number,
-        metavar="SHARE",
-        help="relative standard deviation of the points, with --free or --compare",
+    option(fit, "--compare", "fit nothing: hold the scene against the points")
+    option(
+        fit,
+        "--scatter SHARE",
+        "relative standard deviation of the points, with --free or --compare",
+        number,
     )
     outputs(fit)
 
@@ -265,87 +229,75 @@ def parser() -> argparse.ArgumentParser:
         "scene.toml --output road.fmap --plot map.png\n  asperity map --info road.fmap",
     )
     mapped.add_argument("scene", metavar="SCENE.toml", nargs="?")
-    mapped.add_argument("--info", metavar="FILE", help="tell what is in a map's file")
+    option(mapped, "--info FILE", "tell what is in a map's file")
     for name, unit in (("pressure", "Pa"), ("velocity", "m/s")):
-        mapped.add_argument(
-            f"--{name}",
-            type=sides,
-            metavar="LO,HI",
-            help=f"of the map [{unit}] (default: the scene's)",
-        )
-    mapped.add_argument(
-        "--rtol", type=number, help="relative (default: the scene's [solver] rtol, or 1e-4)"
+        option(mapped, f"--{name} LO,HI", f"of the map [{unit}] (default: the scene's)", sides)
+    option(mapped, "--rtol", "relative (default: the scene's [solver] rtol, or 1e-4)", number)
+    option(
+        mapped, "--checked N", "random points that the map is checked on (default: 1000000)", whole
     )
-    mapped.add_argument(
-        "--checked",
-        type=whole,
-        metavar="N",
-        help="random points that the map is checked on (default: 1000000)",
-    )
-    mapped.add_argument("--output", metavar="FILE", help="where to write the map")
-    mapped.add_argument(
-        "--export",
-        metavar="GRID",
-        help="write mu on a grid for simulators that interpolate, .mat (MATLAB) or .csv",
+    option(mapped, "--output FILE", "where to write the map")
+    option(
+        mapped,
+        "--export GRID",
+        "write mu on a grid for simulators that interpolate, .mat (MATLAB) or .csv",
     )
     pictures(mapped)
     notes(mapped)
-    mapped.add_argument("--json", action="store_true", help="tell it as JSON")
+    option(mapped, "--json", "tell it as JSON")
 
     mock_up = verb(
         "fmu",
-        fmu,
+        map_command.fmu,
         "a friction map as a Functional Mock-up Unit for tire and vehicle simulators",
         "road.fmap --output road.fmu --fmi 3.0",
     )
     mock_up.add_argument("map", metavar="ROAD.fmap")
-    mock_up.add_argument("--output", metavar="FILE", required=True, help="the FMU that is written")
-    mock_up.add_argument(
+    option(mock_up, "--output FILE", "the FMU that is written", required=True)
+    option(
+        mock_up,
         "--fmi",
+        "version of the standard (default: %(default)s)",
         choices=("2.0", "3.0"),
         default="2.0",
-        help="version of the standard (default: %(default)s)",
     )
-    mock_up.add_argument(
+    option(
+        mock_up,
         "--name",
+        "of the model, an identifier of C (default: %(default)s)",
         default="friction",
-        help="of the model, an identifier of C (default: %(default)s)",
     )
-    mock_up.add_argument(
-        "--points",
-        type=whole,
-        metavar="N",
-        help="contact points looked up at once: arrays in 3.0, pressure[1] ... in 2.0",
+    option(
+        mock_up,
+        "--points N",
+        "contact points looked up at once: arrays in 3.0, pressure[1] ... in 2.0",
+        whole,
     )
 
     reported = verb(
         "report",
-        report,
+        commands.report,
         "scenes as one HTML file with pictures, tables, errors and inputs, to read and to print",
         "dry.toml wet.toml --output report.html",
     )
     reported.add_argument("scene", metavar="SCENE.toml", nargs="+")
-    reported.add_argument("--output", metavar="FILE", required=True, help="the file to write")
-    reported.add_argument("--title", help="the heading (default: the names of the scenes)")
+    option(reported, "--output FILE", "the file to write", required=True)
+    option(reported, "--title TITLE", "the heading (default: the names of the scenes)")
 
     in_browser = verb(
         "app",
-        app,
+        commands.app,
         "the app in the browser, on this machine alone: its address with a token is printed",
         "--port 8080 --no-browser",
     )
-    in_browser.add_argument(
-        "--port", type=whole, default=0, metavar="N", help="to listen at (default: any free one)"
-    )
-    in_browser.add_argument(
-        "--host",
+    option(in_browser, "--port N", "to listen at (default: any free one)", whole, default=0)
+    option(
+        in_browser,
+        "--host ADDRESS",
+        "to listen at (default: %(default)s, which other machines cannot reach)",
         default="127.0.0.1",
-        metavar="ADDRESS",
-        help="to listen at (default: %(default)s, which other machines cannot reach)",
     )
-    in_browser.add_argument(
-        "--no-browser", action="store_true", help="print the address, open no browser"
-    )
+    option(in_browser, "--no-browser", "print the address, open no browser")
 
     validate = verb(
         "validate",
@@ -355,43 +307,28 @@ def parser() -> argparse.ArgumentParser:
     )
     directory(validate, "asperity-validate")
     notes(validate)
-    validate.add_argument(
-        "--rows", metavar="FILE", help="contacts to compare with (default: the 177 shipped ones)"
-    )
-    validate.add_argument(
-        "--surface",
-        metavar="FILE",
-        help="a map of your own, pressed by boundary elements",
-    )
+    option(validate, "--rows FILE", "contacts to compare with (default: the 177 shipped ones)")
+    option(validate, "--surface FILE", "a map of your own, pressed by boundary elements")
     of_scan(validate)
-    validate.add_argument(
-        "--q0",
-        type=number,
-        metavar="Q",
-        help="wavenumber of its macro-asperities [1/m]; without it peaks and IGW are left out",
+    option(
+        validate,
+        "--q0 Q",
+        "wavenumber of its macro-asperities [1/m]; without it peaks and IGW are left out",
+        number,
     )
-    validate.add_argument(
-        "--loads", type=numbers, metavar="P,P,...", help="p / (E* h') (default: those of the rows)"
-    )
-    validate.add_argument(
-        "--periodic", action="store_true", help="the map continues at its opposite sides"
-    )
-    validate.add_argument(
+    option(validate, "--loads P,P,...", "p / (E* h') (default: those of the rows)", numbers)
+    option(validate, "--periodic", "the map continues at its opposite sides")
+    option(
+        validate,
         "--sliding",
-        action="store_true",
-        help="friction and area against exact sliding contact, of --surface or a shipped map",
+        "friction and area against exact sliding contact, of --surface or a shipped map",
     )
-    validate.add_argument(
-        "--rubber",
-        metavar="SCENE",
-        help="rubber, pressures and velocities of --sliding (default: the shipped scene's)",
+    option(
+        validate,
+        "--rubber SCENE",
+        "rubber, pressures and velocities of --sliding (default: the shipped scene's)",
     )
-    validate.add_argument(
-        "--velocities",
-        type=numbers,
-        metavar="V,V,...",
-        help="of --sliding [m/s] (default: SCENE's)",
-    )
+    option(validate, "--velocities V,V,...", "of --sliding [m/s] (default: SCENE's)", numbers)
     remade = verb(
         "article",
         script("article"),

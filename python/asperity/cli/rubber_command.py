@@ -1,5 +1,6 @@
 """The verb `rubber`: DMA sweeps to a master curve, shift factors and a Prony series."""
 
+import argparse
 import os
 from argparse import Namespace
 from collections.abc import Callable
@@ -14,7 +15,7 @@ from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Note, fatal_first, refusal
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
-from asperity.cli.options import typed_options
+from asperity.cli.options import number, numbers, option, pairs, typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
@@ -221,3 +222,55 @@ def _isotherms(build: MasterCurveBuild) -> dict[str, list[float]]:
         "standard_deviation": build.standard_deviation.tolist(),
         "b_t": build.b_T.tolist(),
     }
+
+
+def add_rubber(verb: Callable[..., argparse.ArgumentParser]) -> argparse.ArgumentParser:
+    """Add the verb and its options, but for those that verbs share."""
+    added = verb(
+        "rubber",
+        rubber,
+        "master curve, shift factors and Prony series of DMA isotherms",
+        "dma.csv --columns frequency=f,temperature=T,storage=G1,loss=G2 "
+        "--units frequency=Hz,temperature=C,modulus=MPa --modulus G --plot rubber.png",
+    )
+    added.add_argument("file", metavar="FILE", nargs="+")
+    option(
+        added,
+        "--columns NAME=COLUMN,...",
+        "names in the files of frequency, temperature, storage, loss",
+        pairs,
+        required=True,
+    )
+    option(
+        added,
+        "--units NAME=UNIT,...",
+        "frequency=Hz or rad/s, temperature=K or C, modulus=Pa, kPa, MPa or GPa",
+        pairs,
+        required=True,
+    )
+    option(added, "--modulus", "Young's or shear moduli", choices=("E", "G"), required=True)
+    option(
+        added,
+        "--poisson-ratio NU",
+        "for E = 2 (1 + nu) G (default: %(default)s)",
+        number,
+        default=0.5,
+    )
+    option(
+        added,
+        "--temperatures T,T,...",
+        "one for each file, where the files have no column of them",
+        numbers,
+    )
+    option(added, "--reference-temperature T", "[K] (default: that of the middle isotherm)", number)
+    option(added, "--vertical-shift", "divide moduli by b_T (default: none)", choices=("T/T_ref",))
+    option(
+        added,
+        "--shift FILE",
+        "take a_T from a table (temperature_k,log10_a_t or T,log_aT) or a file of this verb",
+    )
+    option(added, "--write-shift FILE", "write the shift factors, a row an isotherm (.csv)")
+    option(
+        added, "--write-prony FILE", "write the Prony terms: .csv, .inp for Abaqus, .mac for Ansys"
+    )
+    return added

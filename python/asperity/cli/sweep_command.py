@@ -1,12 +1,13 @@
 """The verb `sweep`: many scenes at once, on one machine or on many."""
 
+import argparse
 import importlib.util
 import json
 import logging
 import math
 import sys
 from argparse import Namespace
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -14,9 +15,10 @@ from typing import Any
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.base.codes import FATAL
-from asperity.base.diagnostics import MUST_BE, Argument, Note
+from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.base.table import imported
 from asperity.cli.friction_commands import refuse_overwrite
+from asperity.cli.options import option, pairs, whole
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.draw.figure import check_plot
 from asperity.draw.style import drawn_in
@@ -63,16 +65,13 @@ def _sweep(args: Namespace) -> None:
         _look_at_store(args, path, looks)
         return
     if args.force and args.resume:
-        raise InvalidInput("--force, --resume", MUST_BE, "one of them")
-    for option, value in {"--force": args.force, "--resume": args.resume}.items():
-        if value and args.dry_run:
-            raise InvalidInput(
-                Argument(option), MUST_BE, "left out with --dry-run, which writes nothing"
-            )
-    if looks and args.dry_run:
-        raise InvalidInput(
-            Argument("--dry-run"), ": computes nothing that --plot or --rank could show"
-        )
+        raise must_be("", "one of them", "--force, --resume")
+    if args.dry_run and (args.force or args.resume):
+        flag = "--force" if args.force else "--resume"
+        raise must_be(flag, "left out with --dry-run, which writes nothing")
+    if args.dry_run and looks:
+        problem = ": computes nothing that --plot or --rank could show"
+        raise InvalidInput(Argument("--dry-run"), problem)
     if args.output is None and not args.dry_run:
         raise InvalidInput(Argument("--output"), ": is missing: results.zarr or results.nc")
     with _executor(args) as (executor, first):
@@ -93,15 +92,8 @@ def _compute(args: Namespace, executor: Any) -> None:
     if args.dry_run:
         _tell(plan, Executor(executor))
         return
-    dataset = run.computed(
-        plan,
-        executor,
-        output,
-        resume=args.resume,
-        force=args.force,
-        progress=_bar(path),
-    )
-    with dataset:
+    how = {"resume": args.resume, "force": args.force, "progress": _bar(path)}
+    with run.computed(plan, executor, output, **how) as dataset:
         _look(args, dataset)
         tell_notes(notes_of(dataset), args.notes)
         points, failed = plan.points, int(dataset.attrs["failed"])
@@ -115,28 +107,16 @@ def _compute(args: Namespace, executor: Any) -> None:
 
 def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
     """Draw or rank what an earlier sweep computed."""
-    options = {
-        "--output": args.output,
-        "--workers": args.workers,
-        "--scheduler": args.scheduler,
-        "--mpi": args.mpi,
-        "--resume": args.resume,
-        "--force": args.force,
-        "--dry-run": args.dry_run,
-    }
-    for option, value in options.items():
-        if value:
-            raise InvalidInput(
-                Argument(option), f": {path} is a store: give a SWEEP.toml to compute"
-            )
+    for name in ("output", "workers", "scheduler", "mpi", "resume", "force", "dry_run"):
+        if getattr(args, name):
+            problem = f": {path} is a store: give a SWEEP.toml to compute"
+            raise InvalidInput(Argument(f"--{name.replace('_', '-')}"), problem)
     if not looks:
         raise InvalidInput("is a store: look at it by --plot or --rank", where=path)
     if args.variables is not None and args.plot is None:
         raise InvalidInput(Argument("--variables"), ": goes with --plot, a rank is of mu")
     if args.variables is not None and "," in args.variables:
-        raise InvalidInput(
-            Argument("--variables"), f" {args.variables}", MUST_BE, "one, the one to draw"
-        )
+        raise must_be("--variables", "one, the one to draw", f" {args.variables}")
     if not path.exists():
         raise InvalidInput("cannot be read: No such file or directory", where=path)
     with open_store(path) as dataset:
@@ -172,11 +152,9 @@ def _read(path: Path) -> tuple[Path, Any, Any]:
             raise InvalidInput(Argument(key), f": unknown key, {nearest(key, _KEYS)}", where=path)
     scene, over = tables.get("scene"), tables.get("over")
     if not isinstance(scene, str):
-        raise InvalidInput(
-            Argument("scene"), MUST_BE, 'the name of a file, as in scene = "scene.toml"', where=path
-        )
+        raise must_be("scene", 'the name of a file, as in scene = "scene.toml"', where=path)
     if not isinstance(over, dict):
-        raise InvalidInput("[over]", MUST_BE, "a table of keys with lists", where=path)
+        raise must_be("", "a table of keys with lists", "[over]", where=path)
     return FilePath(path.parent / scene), over, tables.get("variables")
 
 
@@ -209,7 +187,7 @@ def _executor(args: Namespace) -> Iterator[tuple[Any, bool]]:
     """The executor that is asked for, and whether this process is the one that sends tasks."""
     asked = [args.workers is not None, args.scheduler is not None, args.mpi]
     if sum(asked) > 1:
-        raise InvalidInput("--workers, --scheduler, --mpi", MUST_BE, "one of them")
+        raise must_be("", "one of them", "--workers, --scheduler, --mpi")
     if args.mpi:
         futures = imported("mpi4py.futures", "mpi")
         with futures.MPICommExecutor() as executor:
@@ -219,7 +197,7 @@ def _executor(args: Namespace) -> Iterator[tuple[Any, bool]]:
             yield client, True
     elif args.workers is not None:
         if not 1 <= args.workers <= 10_000:
-            raise InvalidInput(f"--workers {args.workers}", MUST_BE, "from 1 to 10000")
+            raise must_be("", "from 1 to 10000", f"--workers {args.workers}")
         with local_cluster(args.workers) as client:
             yield client, True
     else:
@@ -239,3 +217,40 @@ def _client(address: str) -> Any:
     if not client.ncores():
         print_stderr(f"note: {address} has no workers yet: waiting for them\n")
     return client
+
+
+def add_sweep(
+    verb: Callable[..., argparse.ArgumentParser],
+    pictures: Callable[[argparse.ArgumentParser], None],
+    notes: Callable[[argparse.ArgumentParser], None],
+) -> None:
+    added = verb(
+        "sweep",
+        sweep,
+        "friction of many scenes at once, on one machine or on many; pictures and ranks of them",
+        "sweep.toml --output results.zarr --workers 4\n"
+        "  asperity sweep results.zarr --plot results.png --at surface.hurst=0.8\n"
+        "  asperity sweep results.zarr --rank correction.kind",
+    )
+    added.add_argument(
+        "sweep",
+        metavar="SWEEP.toml",
+        help='scene = "scene.toml", and a table [over] of keys with lists; or a store of such a '
+        "sweep, to look at",
+    )
+    option(added, "--output STORE", "results.zarr or results.nc")
+    option(added, "--workers N", "processes of this machine (default: this one)", whole)
+    option(added, "--scheduler ADDRESS", "of Dask workers that run, tcp://host:8786")
+    option(added, "--mpi", "other ranks compute: start it by mpiexec -n 8")
+    option(added, "--resume", "go on with the store of an earlier run")
+    option(added, "--force", "replace a sweep's store that is there")
+    option(added, "--variables NAME,...", "keep these alone (default: all of them); draw the first")
+    option(added, "--dry-run", "tell points, tasks, bytes and seconds")
+    option(added, "--at AXIS=VALUE,...", "look at these values of some axes", pairs, default={})
+    option(
+        added,
+        "--rank AXIS",
+        "tell which value of an axis has most friction, where, and how certainly, as CSV",
+    )
+    pictures(added)
+    notes(added)

@@ -9,7 +9,7 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, adhesion_core
 from asperity.base.arguments import MOST_THREADS, number, of_kind, real_array, whole
-from asperity.base.diagnostics import Argument, refusal, valued
+from asperity.base.diagnostics import Argument, refusal, unfit
 from asperity.contact import Form, Method, contact_model
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
@@ -177,22 +177,12 @@ def _law(
             needs = "needs temperature= and shift=, from which the rubber is heated"
             raise InvalidInput(Argument("heating"), f": {needs}")
         if temperature is None:
-            raise InvalidInput(
-                Argument("shift"),
-                " = ",
-                valued(shift),
-                ": needs temperature=, at which to take a_T",
-            )
-        raise InvalidInput(
-            Argument("temperature"),
-            " = ",
-            valued(temperature),
-            ": needs shift=, which gives a_T(T)",
-        )
+            raise unfit("shift", shift, "needs temperature=, at which to take a_T")
+        raise unfit("temperature", temperature, "needs shift=, which gives a_T(T)")
     sides = _temperatures(temperature)
     if heating is None and sides[0] != sides[1]:
         only = "must be a number where no heating is given; a look-up's a_T leads to others"
-        raise InvalidInput(Argument("temperature"), " = ", valued(temperature), f": {only}")
+        raise unfit("temperature", temperature, only)
     return temperature_shift_core(law), sides
 
 

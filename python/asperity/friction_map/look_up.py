@@ -22,7 +22,7 @@ from asperity.base.arguments import (
     path_of,
     real_array,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, refusal, valued
+from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, must_be, refusal, valued
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.io.files import check_file, write_whole
@@ -379,14 +379,10 @@ class FrictionMap(Table):
         a_T = asked["a_T"]  # noqa: N806
         if not (type(a_T) is float and a_T == 1) and np.any(real_array(a_T, "a_T") != 1):
             allowed = "1 on a map with heat, which no a_T takes to another background"
-            raise InvalidInput(
-                Argument("a_T"), " = ", valued(a_T), MUST_BE, f"{allowed}; give temperature"
-            )
+            raise refusal("a_T", a_T, f"{allowed}; give temperature")
         lo, hi = self.temperature
         if "temperature" not in asked and lo != hi:
-            raise InvalidInput(
-                Argument("temperature"), MUST_BE, f"given, the map covers [{lo:.12g}, {hi:.12g}] K"
-            )
+            raise must_be("temperature", f"given, the map covers [{lo:.12g}, {hi:.12g}] K")
 
     def _refuse(self, point: dict[str, float], options: tuple[bool, int], index: str) -> None:
         """Say why a point has no value."""

@@ -8,8 +8,7 @@ from typing import IO, Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE
+from asperity.base.diagnostics import must_be
 
 _RATIO = 100  # of inflated to stored bytes: heights have 2 to 20, zeros 1000
 _FREE = 2**24  # bytes that any archive may inflate to
@@ -28,7 +27,7 @@ class Archive:
     def open(self, member: zipfile.ZipInfo) -> "_Member":
         """Open a member for reading."""
         if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
-            raise InvalidInput("is compressed in an unusual way", MUST_BE, "stored or deflated")
+            raise must_be("", "stored or deflated", "is compressed in an unusual way")
         return _Member(self, self._archive.open(member))
 
     def check(self) -> None:
@@ -43,7 +42,7 @@ class Archive:
         self._left -= inflated
         if self._left < 0:
             allowed = f"at most {_RATIO} times as much, beyond {_FREE >> 20} MB"
-            raise InvalidInput("inflates to far more than its own size", MUST_BE, allowed)
+            raise must_be("", allowed, "inflates to far more than its own size")
 
 
 class _Member:

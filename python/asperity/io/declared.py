@@ -11,7 +11,7 @@ from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import brief, choice, path_of, vector
 from asperity.base.arguments import number as real
-from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal, valued
+from asperity.base.diagnostics import MUST_BE, Argument, Must, must_be, refusal, valued
 from asperity.io import plausible
 from asperity.io.columns import Columns, Names, read_columns
 from asperity.io.objects import frame_of
@@ -134,11 +134,11 @@ def _check_declared(
     for key, place in columns.items():
         if isinstance(place, int) and place < 1:
             label = f": {key} = {place}"
-            raise InvalidInput(Argument("columns"), label, MUST_BE, "1 or more, or a name")
+            raise must_be("columns", "1 or more, or a name", label)
     for key, unit in units.items():
         if unit not in KINDS[key].units:
             allowed = f"one of {', '.join(KINDS[key].units)}"
-            raise InvalidInput(Argument("units"), f": {key} = {brief(unit)}", MUST_BE, allowed)
+            raise must_be("units", allowed, f": {key} = {brief(unit)}")
 
 
 def _check_stated(table: Columns, columns: Names, units: Mapping[str, str]) -> None:

@@ -331,12 +331,15 @@ def arguments(values: Mapping[str, Any], fields: Mapping[str, Field]) -> dict[st
     }
 
 
-_ADVICE = {
+_ADVICE = {  # in a scene, and on the command line that fits one
     "take-partial-contact": 'take [correction] kind = "partial-contact", which was 4 % rms off',
     "give-macro-wavenumber": "give macro_wavenumber_per_m or macro_area",
     "end-spectrum": "[surface] q1_per_m = {:.12g}",
     "extrapolate-curve": '[rubber] extrapolation = "power-law" or "clamp"',
     "extrapolate-series": '[rubber] extrapolation = "prony"',
+    "hold-some": "--hold keeps some",
+    "hold-width": "--hold width=0.1",
+    "hold-velocity": "--hold reference_velocity_m_s=6e-3",
 }
 
 
@@ -345,7 +348,11 @@ def in_keys(sentence: Sentence, names: Mapping[str, str]) -> Sentence:
     said: list[str] = []
     for phrase in sentence:
         if isinstance(phrase, Argument):
-            phrase = phrase.saying(names.get(phrase, phrase))
+            name, _, entry = phrase.partition(": ")  # of an argument that has entries
+            whole = (
+                f"{names[name]} {names.get(entry, entry)}" if entry and name in names else phrase
+            )
+            phrase = phrase.saying(names.get(phrase, whole))
         elif isinstance(phrase, Advice) and phrase.tag in _ADVICE:
             phrase = phrase.saying(_ADVICE[phrase.tag].format(*phrase.numbers))
         elif isinstance(phrase, Advice) and phrase.tag == "allowed-velocities":

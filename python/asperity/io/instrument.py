@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal
+from asperity.base.diagnostics import Argument, must_be, must_have, refusal
 from asperity.base.extras import to_install
 from asperity.base.quantities import LENGTH_UNITS, SPACING
 from asperity.io.archive import Archive
@@ -47,11 +47,8 @@ def _plain(unit: str) -> str:
 def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> HeightMap | LineScan:
     """The map or line scan of heights in units of `metres`; float32 stays float32."""
     if heights.ndim not in (1, 2):
-        raise InvalidInput(
-            Argument("heights"),
-            f" has {heights.ndim} dimensions",
-            Must(": must have "),
-            "2 (a map) or 1 (a line scan)",
+        raise must_have(
+            "heights", "2 (a map) or 1 (a line scan)", f" has {heights.ndim} dimensions"
         )
     if metres != 1:
         kept = heights.dtype.kind == "f" and heights.dtype.itemsize == 4
@@ -239,11 +236,11 @@ def check_equal_distances(positions: NDArray[Any]) -> None:
     fitted = np.mean(positions) + count * (count @ positions) / (count @ count)
     strayed = float(np.max(np.abs(positions - fitted)))
     if not strayed <= max(_UNEVEN * step, _ROUNDED * _last_digit(positions, step)):
-        raise InvalidInput(
+        raise must_be(
+            "",
+            "equally spaced",
             f"holds a line scan whose points stray by up to {strayed / step:.3g} of their mean "
             "distance",
-            MUST_BE,
-            "equally spaced",
         )
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Argument, refusal
+from asperity.base.diagnostics import Argument, must_be, refusal
 from asperity.io.instrument import (
     METRES,
     PixelSize,
@@ -104,6 +104,6 @@ def _of_frame(frame: Any, pixel_size: PixelSize | None, unit: str | None) -> Hei
     heights = [name for name in ("height", "z") if name in frame.columns]
     if "x" not in names or len(heights) != 1:
         have = ", ".join(map(repr, list(frame.columns)[:6]))
-        raise InvalidInput(f"a table of the columns {have}", MUST_BE, "of x, (y,) and height")
+        raise must_be("", "of x, (y,) and height", f"a table of the columns {have}")
     matrix = frame[[*names, *heights]].to_numpy(dtype=float)
     return surface_at(matrix, pixel_size, unit or "m", ())

@@ -8,7 +8,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import path_of
-from asperity.base.diagnostics import MUST_BE
+from asperity.base.diagnostics import must_be
 from asperity.base.table import imported
 from asperity.io import plausible
 from asperity.io.files import check_file
@@ -48,7 +48,7 @@ def _npy(path: Path, channel: int) -> Any:
     check_file(path)
     if path.suffix.lower() != ".npy":
         allowed = "a .npy file or a Zarr array; others are read whole"
-        raise InvalidInput("cannot be read by tiles", MUST_BE, allowed)
+        raise must_be("", allowed, "cannot be read by tiles")
     check_channel(channel, 1)
     try:
         return np.load(path, mmap_mode="r", allow_pickle=False)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Argument, refusal
+from asperity.base.diagnostics import MUST_BE, Argument, must_be, refusal
 from asperity.io.instrument import METRES, PixelSize, check_equal_distances, surface_of
 from asperity.surface import HeightMap, LineScan
 
@@ -30,7 +30,7 @@ def _stated(names: Sequence[str], columns: int) -> tuple[str | None, str | None]
     matches = [re.search(r"(?:^|[\[(/,_ ])\s*([munpµμ]?m)\s*[\])]?\s*$", name) for name in names]
     units = [re.sub("^[µμ]", "u", one[1]) if one else None for one in matches]
     if len(set(units[:-1])) != 1:
-        raise InvalidInput("has x and y in two units", MUST_BE, "in one")
+        raise must_be("", "in one", "has x and y in two units")
     return units[0], units[-1]
 
 
@@ -52,7 +52,7 @@ def surface_at(
         raise InvalidInput(Argument("unit"), problem)
     *places, heights = matrix.T
     if not all(np.isfinite(one).all() for one in places):
-        raise InvalidInput("has rows without a position", MUST_BE, "numbers")
+        raise must_be("", "numbers", "has rows without a position")
     if len(places) == 1:
         (x,) = places
         backward = x[0] > x[-1]
@@ -68,7 +68,7 @@ def surface_at(
         taken = np.zeros(grid.shape, bool)
         taken[of_y, of_x] = True
         if np.count_nonzero(taken) < heights.size:
-            raise InvalidInput("has two heights at one x and y", MUST_BE, "one at each")
+            raise must_be("", "one at each", "has two heights at one x and y")
         grid[of_y, of_x] = heights
         heights = grid
     metres = METRES[stated[0] or unit] if pixel_size is None else _unit_of(steps, pixel_size)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import choice, path_of, real_array
-from asperity.base.diagnostics import MUST_BE, Argument
+from asperity.base.diagnostics import MUST_BE, must_be
 from asperity.io import plausible
 from asperity.io.column_names import cells_of
 from asperity.io.columns import read_columns
@@ -54,15 +54,15 @@ def measured_friction(measured: Any) -> tuple[MeasuredFriction, Path]:
         choice(name, "measured", tuple(_COLUMNS))
     for name in ("velocity", "mu"):
         if name not in measured:
-            raise InvalidInput(Argument("measured"), MUST_BE, f"a mapping that has {name}")
+            raise must_be("measured", f"a mapping that has {name}")
     given = {name: real_array(one, f"measured: {name}") for name, one in measured.items()}
     shape = given["mu"].shape
     for name, column in given.items():
         if column.ndim > 1 or column.shape not in ((), shape):
             result = f" has shape {column.shape}"
-            raise InvalidInput(Argument(f"measured: {name}"), result, MUST_BE, f"{shape}, as mu")
+            raise must_be(f"measured: {name}", f"{shape}, as mu", result)
         if not ((column > 0) & (column < math.inf)).all():
-            raise InvalidInput(Argument(f"measured: {name}"), MUST_BE, "positive and finite")
+            raise must_be(f"measured: {name}", "positive and finite")
     flat = {name: np.array(np.broadcast_to(one, shape)).ravel() for name, one in given.items()}
     points = MeasuredFriction(
         flat["velocity"], flat["mu"], flat.get("pressure"), flat.get("temperature")
@@ -120,9 +120,7 @@ def _column(path: Path, header: list[str], kind: str) -> str | None:
     known: Mapping[str, str] = _COLUMNS[kind]
     names = [name for name in header if name in known]
     if len(names) > 1:
-        raise InvalidInput(
-            f"has two columns of {kind}", MUST_BE, f"one of {', '.join(known)}", where=path
-        )
+        raise must_be("", f"one of {', '.join(known)}", f"has two columns of {kind}", where=path)
     if names:
         return names[0]
     bare = [name for name in header if name.lower().startswith(kind)]

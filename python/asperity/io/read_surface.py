@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import path_of
-from asperity.base.diagnostics import MUST_BE, Argument, refusal
+from asperity.base.diagnostics import Argument, must_be, refusal
 from asperity.io import plausible
 from asperity.io.archive import Archive, read_array
 from asperity.io.files import check_file
@@ -120,10 +120,10 @@ def _read(
 ) -> HeightMap | LineScan:
     suffix = path.suffix.lower()
     if suffix == ".toml":
-        raise InvalidInput(
-            "is a scene, not a surface",
-            MUST_BE,
+        raise must_be(
+            "",
             "a scan (.npy, .npz, .csv, .txt or the file of an instrument)",
+            "is a scene, not a surface",
         )
     if suffix == ".zip":
         if pixel_size is not None:
@@ -163,9 +163,9 @@ def _sound(kind: str) -> Iterator[None]:
 
 def _real(values: object) -> NDArray[Any]:
     if not isinstance(values, np.ndarray):
-        raise InvalidInput("holds something else", MUST_BE, "an array of real numbers")
+        raise must_be("", "an array of real numbers", "holds something else")
     if values.dtype.kind not in "fiu":
-        raise InvalidInput(f"holds {values.dtype} values", MUST_BE, "real numbers")
+        raise must_be("", "real numbers", f"holds {values.dtype} values")
     return np.asarray(values)
 
 

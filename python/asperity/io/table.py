@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput, __version__
-from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first
+from asperity._core import __version__
+from asperity.base.diagnostics import Note, fatal_first, must_be
 
 # Endings of columns that are no pure numbers; the first that fits holds.
 UNITS = {
@@ -91,7 +91,7 @@ def notes_in(path: Path) -> tuple[Note, ...]:
     except ValueError:
         lines = None
     if not isinstance(lines, list) or not all(isinstance(one, str) for one in lines):
-        raise InvalidInput(Argument(start.strip("# =")), MUST_BE, "a list of texts", where=path)
+        raise must_be(start.strip("# ="), "a list of texts", where=path)
     return tuple(map(Note.of_line, lines))
 
 

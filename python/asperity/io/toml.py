@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import Must
+from asperity.base.diagnostics import must_have
 
 _MOST_BYTES = 2**24
 _MOST_PARTS = 32
@@ -34,9 +34,7 @@ _DOT = re.compile(rf"{_PART}|(?P<dot>\.)")
 def read_toml_text(content: bytes, parse_float: Callable[[str], Any] = float) -> dict[str, Any]:
     """The tables of a TOML file; InvalidInput says what is wrong with it."""
     if len(content) > _MOST_BYTES:
-        raise InvalidInput(
-            f"has {len(content)} bytes", Must(": must have "), f"at most {_MOST_BYTES}"
-        )
+        raise must_have("", f"at most {_MOST_BYTES}", f"has {len(content)} bytes")
     try:
         text = content.decode("utf-8")
         line = _long_key(text)

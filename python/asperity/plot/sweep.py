@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Argument
+from asperity.base.diagnostics import Argument, must_be
 from asperity.draw.figure import (
     COLUMN,
     MOST_ENTRIES,
@@ -92,12 +92,7 @@ def _roles(dataset: Any, name: str) -> list[Any]:
     left.remove(x)
     if len(left) > 3:
         names = ", ".join(left)
-        raise InvalidInput(
-            Argument("--plot"),
-            f": {names}",
-            MUST_BE,
-            f"at most 3 beside {x}: fix the others by --at",
-        )
+        raise must_be("--plot", f"at most 3 beside {x}: fix the others by --at", f": {names}")
     lines = left.pop() if left else None
     panels = left[::-1]
     for axis in panels:

@@ -13,7 +13,7 @@ from typing import Any
 from asperity._core import InvalidInput, __version__
 from asperity.base.arguments import brief
 from asperity.base.codes import FATAL
-from asperity.base.diagnostics import MUST_BE, Argument, Must
+from asperity.base.diagnostics import must_be, must_have
 from asperity.base.table import imported
 from asperity.io.files import check_output, write_whole
 from asperity.report.comparison import compared, differing_inputs
@@ -57,14 +57,9 @@ def report_page(
     jinja = imported("jinja2", "plot")
     imported("matplotlib", "plot")
     if not 1 <= len(paths) <= _MOST_SCENES:
-        raise InvalidInput(
-            Argument("scenes"),
-            f" has {len(paths)} entries",
-            Must(": must have "),
-            f"1 to {_MOST_SCENES}",
-        )
+        raise must_have("scenes", f"1 to {_MOST_SCENES}", f" has {len(paths)} entries")
     if len({os.path.realpath(path) for path in paths}) < len(paths):
-        raise InvalidInput(Argument("scenes"), MUST_BE, "different files")
+        raise must_be("scenes", "different files")
     # their names are known once they are read; what is computed is read after the digests
     sources = [digests(load_scene(path, for_friction=True).sources) for path in paths]
     all_sources = [source for of_one in sources for source in of_one]
@@ -185,6 +180,4 @@ def _now() -> str:
     try:
         return f"{datetime.fromtimestamp(int(stated), UTC):%Y-%m-%d}"
     except (ValueError, OverflowError, OSError):
-        raise InvalidInput(
-            f"SOURCE_DATE_EPOCH = {brief(stated)}", MUST_BE, "seconds since 1970"
-        ) from None
+        raise must_be("", "seconds since 1970", f"SOURCE_DATE_EPOCH = {brief(stated)}") from None

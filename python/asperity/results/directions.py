@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import Shape, broadcast, frozen, real_array
-from asperity.base.diagnostics import Argument, Must, Note, Value, fatal_first, refusal
+from asperity.base.diagnostics import Argument, Note, Value, fatal_first, must_have, refusal
 from asperity.results.friction import Friction, joined
 from asperity.spectrum import Spectrum
 
@@ -28,9 +27,7 @@ def toward_each(
         shape, columns = broadcast(**points)
         return shape, [(angle.item(), slice(None), dict(zip(points, columns, strict=True)))]
     if not angle.size:
-        raise InvalidInput(
-            Argument("direction"), " has 0 entries", Must(": must have "), "1 or more"
-        )
+        raise must_have("direction", "1 or more", " has 0 entries")
     shape, (angle, *columns) = broadcast(direction=angle, **points)
     angles, which = np.unique(angle, return_inverse=True)
     each = []

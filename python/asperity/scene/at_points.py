@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
-from asperity.base.diagnostics import Must
+from asperity.base.diagnostics import must_have
 from asperity.io import plausible
 from asperity.io.read_friction import MeasuredFriction
 from asperity.results.friction import Friction
@@ -85,10 +85,10 @@ class AtPoints:
         first = self._scene(tables, None)
         self.temperatures = np.unique([] if measured.temperature is None else measured.temperature)
         if first.others and not self.temperatures.size:
-            raise InvalidInput(
-                "has no column of temperature",
-                Must(": must have "),
+            raise must_have(
+                "",
                 f"temperature_k where {path} has {len(first.others) + 1} temperatures",
+                "has no column of temperature",
                 where=where,
             )
         self.pressure = pressures(first, measured, where)

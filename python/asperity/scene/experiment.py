@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.adhesion import Adhesion, AdhesionFit, fit_adhesion
-from asperity.base.diagnostics import Advice, Argument, Must, Sentence
+from asperity.base.diagnostics import must_have
 from asperity.base.parameters import parameters
+from asperity.io.fields import in_keys
 from asperity.io.read_friction import MeasuredFriction
 from asperity.rubber import Rubber
 from asperity.scene.model import Progress, Scene, SceneFriction
@@ -21,11 +22,6 @@ from asperity.uncertainty.draws import Generator
 
 # arguments of Adhesion by the names that files give them
 PARAMETERS = {one.key: one.name for one in parameters(Adhesion)}
-_HOLD = {
-    "hold-some": "--hold keeps some",
-    "hold-width": "--hold width=0.1",
-    "hold-velocity": "--hold reference_velocity_m_s=6e-3",
-}
 _TRIES = 20  # fits of one draw
 
 
@@ -44,10 +40,10 @@ def pressures(scene: Scene, measured: MeasuredFriction, path: Path) -> NDArray[n
     if measured.pressure is not None:
         return measured.pressure
     if scene.pressure.size > 1:
-        raise InvalidInput(
-            "has no column of pressure",
-            Must(": must have "),
+        raise must_have(
+            "",
             f"pressure_pa where [conditions] pressure_pa of {scene.path} has {scene.pressure.size}",
+            "has no column of pressure",
             where=path,
         )
     return np.full(measured.mu.shape, scene.pressure[0])
@@ -88,7 +84,8 @@ class Experiment:
         try:
             return self.fit(scene, scene.spectrum, scene.rubber, self.measured.mu), None
         except InvalidInput as error:
-            return None, error.said(_in_options).within(self.path)
+            options = {one: key for key, one in PARAMETERS.items()} | {"fixed": "--hold"}
+            return None, error.said(partial(in_keys, names=options)).within(self.path)
 
     def curves(
         self, scene: Scene, adhesion: AdhesionFit | None, progress: Progress
@@ -121,21 +118,6 @@ class Experiment:
             "row: no band",
             where=self.path,
         )
-
-
-def _in_options(sentence: Sentence) -> Sentence:
-    """Python's `fixed = {...}` as the option of the command line, parameters as files name them."""
-    names = {name: key for key, name in PARAMETERS.items()}
-    names |= {f"fixed: {name}": f"--hold {key}" for name, key in names.items()}
-    names["fixed"] = "--hold"
-    said: list[str] = []
-    for phrase in sentence:
-        if isinstance(phrase, Argument):
-            phrase = phrase.saying(names.get(phrase, phrase))
-        elif isinstance(phrase, Advice):
-            phrase = phrase.saying(_HOLD.get(phrase.tag, phrase))
-        said.append(phrase)
-    return tuple(said)
 
 
 def found(adhesion: AdhesionFit) -> dict[str, float]:

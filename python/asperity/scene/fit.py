@@ -10,7 +10,7 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.base.arguments import frozen, number, path_of
-from asperity.base.diagnostics import Argument, Must, Note, fatal_first, refusal
+from asperity.base.diagnostics import Argument, Note, fatal_first, must_have, refusal
 from asperity.base.table import imported
 from asperity.io.read_friction import MeasuredFriction, measured_friction
 from asperity.scene.at_points import Array, AtPoints, Slopes
@@ -146,10 +146,10 @@ def _check_count(
     without = sum(one.prior is None for one in unknowns)
     needed = without + (not given)
     if points.mu.size < needed:
-        raise InvalidInput(
-            f"has {points.mu.size} points",
-            Must(": must have "),
+        raise must_have(
+            "",
             f"{needed} or more to fit {without} numbers without a prior",
+            f"has {points.mu.size} points",
             where=where,
         )
 

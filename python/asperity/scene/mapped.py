@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import known
-from asperity.base.diagnostics import MUST_BE, Argument, Note
+from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.rubber import Rubber
 from asperity.scene.model import Scene
 
@@ -18,16 +17,12 @@ def heat_of_map(scene: Scene) -> dict[str, Any]:
     all_places = (scene, *scene.others)
     if len({one.direction_deg for one in all_places}) > 1:
         allowed = "one: it is where look-ups begin to count, and these take all others"
-        raise InvalidInput(
-            Argument("[conditions] direction_deg"), MUST_BE, allowed, where=scene.path
-        )
+        raise must_be("[conditions] direction_deg", allowed, where=scene.path)
     temperatures = [one.temperature for one in all_places]
     if scene.heating is None:
         if len(temperatures) > 1:
             allowed = "one temperature where no [heating] is given; a_T leads to others"
-            raise InvalidInput(
-                Argument("[conditions] temperature"), MUST_BE, allowed, where=scene.path
-            )
+            raise must_be("[conditions] temperature", allowed, where=scene.path)
         return {}
     lowest, highest = min(map(known, temperatures)), max(map(known, temperatures))
     law = scene.built_rubber.shift

@@ -12,7 +12,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Argument, Note
+from asperity.base.diagnostics import Note, must_be
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import NO_DIRECTIONS, Window, line_spectrum, power_spectrum
 from asperity.plane_spectrum import anisotropy
@@ -55,7 +55,7 @@ def surface_spectrum(
     if isinstance(scan, HeightMap):
         return power_spectrum(scan, window=window, detrend=detrend, directional=directional)
     if directional:
-        raise InvalidInput(Argument("directional"), NO_DIRECTIONS, MUST_BE, "False")
+        raise must_be("directional", "False", NO_DIRECTIONS)
     profile = line_spectrum(scan, window=window, detrend=detrend)
     *finer, coarsest = _BINS
     for per_decade in finer:

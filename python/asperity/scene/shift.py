@@ -3,8 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, valued
+from asperity.base.diagnostics import unfit
 from asperity.dma import MasterCurveBuild
 from asperity.io.fields import (
     Field,
@@ -93,10 +92,7 @@ def shift_factor(
         else:
             a_t = float(shifts.shift_factor(at))
         if not 0 < a_t < float("inf"):
-            raise InvalidInput(
-                Argument("temperature"),
-                " = ",
-                valued(values["temperature_k"], f"{values['temperature_k']}"),
-                f": a_T = {a_t}",
+            raise unfit(
+                "temperature", values["temperature_k"], f"a_T = {a_t}", f"{values['temperature_k']}"
             )
         return a_t

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import choice, number, shortened
-from asperity.base.diagnostics import MUST_BE, Argument, refusal
+from asperity.base.diagnostics import MUST_BE, Argument, must_be, refusal
 from asperity.io.fields import Field, count, nearest
 from asperity.results.gradients import Gradients
 from asperity.scene.known import KEYS
@@ -108,11 +108,7 @@ def unknowns_of(
         raise refusal("free", free, "a list without repeats")
     for key in priors:
         if key not in free:
-            raise InvalidInput(
-                Argument(f"priors: {shortened(str(key))}"),
-                MUST_BE,
-                f"one of free, {', '.join(free)}",
-            )
+            raise must_be(f"priors: {shortened(str(key))}", f"one of free, {', '.join(free)}")
     return [_unknown(path, tables, key, priors.get(key), hot=hot) for key in free]
 
 
@@ -136,9 +132,7 @@ def _unknown(path: Path, tables: Mapping[str, Any], key: str, given: Any, *, hot
     if not plain and not start > 0:
         raise InvalidInput(about, f" = {start:g}", MUST_BE, "above 0, as it is fitted in its ln")
     if prior is not None and prior.scale == "ln" and plain:
-        raise InvalidInput(
-            Argument(f"priors: {key}"), MUST_BE, "plain for a temperature or an angle"
-        )
+        raise must_be(f"priors: {key}", "plain for a temperature or an angle")
     at = None if place is None else int(place)
     return Unknown(key, table, name, at, start, plain, prior)
 

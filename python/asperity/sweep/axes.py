@@ -11,7 +11,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import brief
-from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal, valued
+from asperity.base.diagnostics import Argument, must_be, must_have, refusal, valued
 from asperity.io import plausible
 from asperity.io.fields import Field, angles, nearest, read_table, sweep
 from asperity.scene.known import KEYS, KEYS_OF_KIND
@@ -74,9 +74,7 @@ def _entries(path: Path, over: object) -> Iterator[tuple[str, Any]]:
         raise refusal("over", over, "a table of keys with lists", where=path)
     for name, values in over.items():
         if not isinstance(name, str):
-            raise InvalidInput(
-                Argument("over"), f": {brief(name)}", MUST_BE, "the name of a key", where=path
-            )
+            raise must_be("over", "the name of a key", f": {brief(name)}", where=path)
         if name in KEYS and isinstance(values, Mapping):
             yield from _flat(name, values).items()
         else:
@@ -96,16 +94,12 @@ def _axis(path: Path, name: str, entry: object) -> Axis:
         nested = key in KEYS and isinstance(values, Mapping)
         zipped |= _flat(key, values) if nested else {key: values}
     if not zipped:
-        raise InvalidInput(
-            Argument(f"over {name}"), ": has no keys", MUST_BE, "keys with lists", where=path
-        )
+        raise must_be(f"over {name}", "keys with lists", ": has no keys", where=path)
     values = {key: _values(path, key, one, name) for key, one in zipped.items()}
     lengths = {key: len(one) for key, one in values.items()}
     if len(set(lengths.values())) > 1:
         sizes = ", ".join(f"{key} has {length}" for key, length in lengths.items())
-        raise InvalidInput(
-            Argument(f"over {name}"), f": {sizes}", MUST_BE, "equally long", where=path
-        )
+        raise must_be(f"over {name}", "equally long", f": {sizes}", where=path)
     return Axis(name, values)
 
 
@@ -139,13 +133,7 @@ def _values(path: Path, key: str, entry: object, axis: str) -> Sequence[Any]:
         return _checked(path, key, numbers, fields[field])
     values = tuple(map(_plain, entry))
     if not values:
-        raise InvalidInput(
-            Argument(f"over {key}"),
-            ": is empty",
-            Must(": must have "),
-            "one value or more",
-            where=path,
-        )
+        raise must_have(f"over {key}", "one value or more", ": is empty", where=path)
     for value in values:
         if value is None and key not in POINTS:
             continue

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, Must, Note, refusal, valued
+from asperity.base.diagnostics import Argument, Note, must_have, refusal, valued
 from asperity.io.fields import nearest
 
 _BLOCK = 1_000_000  # numbers of a variable that are looked at together
@@ -91,9 +91,7 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
             )
     count = dataset.sizes[axis]
     if count < 2:
-        raise InvalidInput(
-            Argument(f"--rank {axis}"), ": has one value", Must(": must have "), "two or more"
-        )
+        raise must_have(f"--rank {axis}", "two or more", ": has one value")
     others = [str(name) for name in dataset["mu"].dims if name != axis]
     total, known, points = np.zeros(count), 0, 0
     best, certain = np.zeros(count, int), np.zeros(count, int)

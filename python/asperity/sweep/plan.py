@@ -12,7 +12,7 @@ from typing import Any
 
 from asperity._core import InvalidInput, __version__
 from asperity.base.arguments import brief
-from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal
+from asperity.base.diagnostics import Argument, Note, must_be, refusal
 from asperity.io.fields import nearest
 from asperity.results.friction import COLUMNS, HEAT, Friction
 from asperity.scene.known import FILES
@@ -151,7 +151,7 @@ def _plain_tables(path: Path, tables: object) -> dict[str, Any]:
     try:
         plain: dict[str, Any] = json.loads(json.dumps(tables, default=_listed))
     except (TypeError, ValueError) as error:
-        raise InvalidInput(f"{error}", MUST_BE, "what a scene file can hold", where=path) from None
+        raise must_be("", "what a scene file can hold", f"{error}", where=path) from None
     return plain
 
 
@@ -197,9 +197,7 @@ def _pressures(path: Path, axes: Sequence[Axis], tables: Mapping[str, Any]) -> t
         if not any(key in axis.values for axis in axes):
             name = key.partition(".")[2]
             if not isinstance(tables["conditions"].get(name), int | float):
-                raise InvalidInput(
-                    Argument(f"[conditions] {name}"), ": missing", MUST_BE, "a number", where=path
-                )
+                raise must_be(f"[conditions] {name}", "a number", ": missing", where=path)
     pressure = float(tables["conditions"][PRESSURE.partition(".")[2]])
     return pressure, pressure
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath, flag, path_of
-from asperity.base.diagnostics import Argument, refusal, valued
+from asperity.base.diagnostics import refusal, unfit
 from asperity.base.table import imported
 from asperity.io import plausible
 from asperity.scene.scene import read_tables
@@ -107,12 +107,7 @@ def sweep(
     resumes = flag(resume, "resume")
     report = _progress(progress)
     if resumes and store is None:
-        raise InvalidInput(
-            Argument("resume"),
-            " = ",
-            valued("True", "True"),
-            ": needs store=, the store of the earlier run",
-        )
+        raise unfit("resume", "True", "needs store=, the store of the earlier run", "True")
     plan = planned(scene, over, variables)
     return computed(plan, executor, store, resume=resumes, progress=report)
 
@@ -185,7 +180,7 @@ def planned(scene: Any, over: Any, variables: Any = None, where: Path | None = N
 def store_path(store: Any) -> Path:
     path = path_of(store, "store")
     if path.suffix not in (".zarr", ".nc"):
-        raise InvalidInput(Argument("store"), " = ", valued(store), ": must end in .zarr or .nc")
+        raise unfit("store", store, "must end in .zarr or .nc")
     if not path.parent.is_dir():
         raise InvalidInput(f"the directory {FilePath(path.parent)} does not exist", where=path)
     return path

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array, number, whole
-from asperity.base.diagnostics import MUST_BE, Argument, refusal, valued
+from asperity.base.diagnostics import refusal
 from asperity.tiles.source import Box, Shape
 
 SMALLEST = 512  # points a side: the coarsened map, which gives what a tile is too short for, has
@@ -84,21 +83,13 @@ def tile_shape(tiles: Any, shape: Shape, pixel_size: tuple[float, float]) -> Sha
     for side, whole_side in zip(sides, shape, strict=True):
         if side > whole_side:
             allowed = f"at most {shape}, the map"
-            raise InvalidInput(
-                Argument("tiles"), " = ", valued(sides, f"{sides}"), MUST_BE, allowed
-            )
+            raise refusal("tiles", sides, allowed, text=f"{sides}")
         if side < SMALLEST and sides != shape:
             raise refusal("tiles", sides, f"{SMALLEST} points or more a side", text=f"{sides}")
     shortest = min(n * d for n, d in zip(sides, pixel_size, strict=True))
     if sides != shape and shortest * (1 + 1e-9) < SMALLEST / 2 * max(pixel_size):
         allowed = f"as long as {SMALLEST // 2} of the coarser pixels on either side"
-        raise InvalidInput(
-            Argument("tiles"),
-            " = ",
-            valued(sides, f"{sides}"),
-            MUST_BE,
-            f"{allowed}, pixel_size = {pixel_size}",
-        )
+        raise refusal("tiles", sides, f"{allowed}, pixel_size = {pixel_size}", text=f"{sides}")
     return sides
 
 

@@ -5,9 +5,9 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
 from typing import Any, TypeVar
 
-from asperity._core import Error, InvalidInput
+from asperity._core import Error
 from asperity.base.arguments import MOST_THREADS, whole
-from asperity.base.diagnostics import Argument, valued
+from asperity.base.diagnostics import unfit
 from asperity.base.executors import accepted, in_one_line, worker_count
 
 Outcome = TypeVar("Outcome")
@@ -20,12 +20,7 @@ class Workers:
         self.threads = whole(threads, "threads", lowest=1, highest=MOST_THREADS)
         self.executor = None if executor is None else accepted(executor)
         if self.executor is not None and self.threads > 1:
-            raise InvalidInput(
-                Argument("threads"),
-                " = ",
-                valued(threads, f"{threads}"),
-                ": an executor brings its own workers",
-            )
+            raise unfit("threads", threads, "an executor brings its own workers", f"{threads}")
 
     def outcomes(
         self, function: Callable[..., Outcome], works: Iterable[tuple[Any, ...]]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from asperity._core import Error, InvalidInput
 from asperity.base.arguments import is_masked
-from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal, valued
+from asperity.base.diagnostics import Argument, must_be, must_have, refusal
 from asperity.base.executors import in_one_line
 from asperity.surface import HeightMap, LineScan, pixel_sizes
 from asperity.tiles.file_array import FileArray, file_behind
@@ -83,9 +83,7 @@ class Source:
 def source_of(surface: Any, pixel_size: Any, scale: float = 1.0) -> Source:
     """Return the heights of a HeightMap or of an array, checked but not read."""
     if isinstance(surface, LineScan):
-        raise InvalidInput(
-            Argument("surface"), " = a LineScan", MUST_BE, "a map; a line scan has no tiles"
-        )
+        raise must_be("surface", "a map; a line scan has no tiles", " = a LineScan")
     if isinstance(surface, HeightMap):
         if pixel_size is not None:
             raise InvalidInput(
@@ -118,17 +116,12 @@ def _array(array: Any) -> Any:
         allowed = "a HeightMap or an array of two axes (NumPy, Zarr, Dask ...)"
         raise refusal("surface", array, allowed)
     if len(shape) != 2:
-        raise InvalidInput(
-            Argument("surface"),
-            f" has shape {tuple(shape)}",
-            Must(": must have "),
-            "two axes, (ny, nx)",
-        )
+        raise must_have("surface", "two axes, (ny, nx)", f" has shape {tuple(shape)}")
     if not all(isinstance(side, int | np.integer) and side > 0 for side in shape):
         allowed = "known and not empty"
-        raise InvalidInput(Argument("surface"), f" has shape {tuple(shape)}", MUST_BE, allowed)
+        raise must_be("surface", allowed, f" has shape {tuple(shape)}")
     if getattr(dtype, "kind", "?") not in "biuf":
-        raise InvalidInput(Argument("surface"), f" holds {dtype} values", MUST_BE, "real numbers")
+        raise must_be("surface", "real numbers", f" holds {dtype} values")
     return array
 
 
@@ -158,9 +151,7 @@ def refuse_infinite(heights: NDArray[Any], corner: Shape) -> None:
         y, x = np.unravel_index(int(endless.argmax()), heights.shape)
         place = f"heights[{corner[0] + int(y)}, {corner[1] + int(x)}]"
         allowed = "finite, or NaN for a drop-out"
-        raise InvalidInput(
-            Argument(place), " = ", valued(heights[y, x], f"{heights[y, x]}"), MUST_BE, allowed
-        )
+        raise refusal(place, heights[y, x], allowed, text=f"{heights[y, x]}")
 
 
 def corner_of(box: Box) -> Shape:

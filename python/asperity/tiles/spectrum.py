@@ -9,7 +9,7 @@ import numpy as np
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import number
-from asperity.base.diagnostics import MUST_BE, Argument, refusal, valued
+from asperity.base.diagnostics import Argument, must_be, refusal
 from asperity.spectrum import TabulatedSpectrum
 from asperity.tiles.coarse import Coarse, Rows, block_of, coarsen, few_modes, without_blocks
 from asperity.tiles.grid import Grid
@@ -37,7 +37,7 @@ def tiled_spectrum(
     """Return the spectrum of a map by tiles."""
     if window == _NONE:
         allowed = "one that ends at 0, as no tile is periodic"
-        raise InvalidInput(Argument("window"), " = ", valued("none", '"none"'), MUST_BE, allowed)
+        raise refusal("window", "none", allowed, text='"none"')
     most = 0.10 if max_dropouts is None else number(max_dropouts, "max_dropouts")
     if not 0 <= most < 1:
         raise refusal("max_dropouts", most, "in [0, 1)", text=f"{most:.6g}")
@@ -87,9 +87,7 @@ def _check_dropouts(share: float, most: float) -> None:
         raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
     if share > most:
         allowed = f"at most {100 * most:.4g} %, max_dropouts = {most:.4g}"
-        raise InvalidInput(
-            Argument("heights"), f" has {100 * share:.4g} % drop-outs", MUST_BE, allowed
-        )
+        raise must_be("heights", allowed, f" has {100 * share:.4g} % drop-outs")
 
 
 def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Workers) -> Rows:

@@ -11,7 +11,7 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice, number
-from asperity.base.diagnostics import MUST_BE, Argument
+from asperity.base.diagnostics import Argument, must_be
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.surface import DETRENDS, Detrend, HeightMap, PixelSize
@@ -135,7 +135,7 @@ def statistics_of(
     workers = Workers(threads, executor)
     if min(source.shape) < 3:
         allowed = "3 x 3 or more for central differences"
-        raise InvalidInput(Argument("heights"), f" has shape {source.shape}", MUST_BE, allowed)
+        raise must_be("heights", allowed, f" has shape {source.shape}")
     boxes = list(_boxes(source.shape))
     anchor = _anchor(source, boxes)
     works = ((source.piece(box), source.shape, corner_of(box), anchor) for box in boxes)

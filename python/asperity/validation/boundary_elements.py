@@ -11,8 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, Must, refusal
+from asperity.base.diagnostics import must_have, refusal
 from asperity.rubber import PronySeries
 from asperity.scene.model import Progress
 from asperity.surface import HeightMap
@@ -116,12 +115,7 @@ def contact(
     heights -= heights.mean()
     slope, lowest, energy = _full_contact(heights, (dy, dx))
     if not 0 < slope < math.inf:
-        raise InvalidInput(
-            Argument("surface"),
-            f" has an rms slope of {slope:.3g}",
-            Must(": must have "),
-            "roughness",
-        )
+        raise must_have("surface", "roughness", f" has an rms slope of {slope:.3g}")
 
     level = HeightMap(heights, pixel_size=(dy, dx))
     rows = []
@@ -156,12 +150,7 @@ def _loads(p_over_Eh: Sequence[float]) -> _Array:
     except (TypeError, ValueError) as error:
         raise refusal("p_over_Eh", p_over_Eh, "a list of numbers", text=f"{p_over_Eh!r}") from error
     if loads.ndim != 1 or loads.size == 0:
-        raise InvalidInput(
-            Argument("p_over_Eh"),
-            f" has shape {loads.shape}",
-            Must(": must have "),
-            "one axis, and a load",
-        )
+        raise must_have("p_over_Eh", "one axis, and a load", f" has shape {loads.shape}")
     for load in loads:
         if not 0 < load < math.inf:
             raise refusal("p_over_Eh", load, "positive and finite", text=f"{load:g}")
@@ -171,18 +160,16 @@ def _loads(p_over_Eh: Sequence[float]) -> _Array:
 def _check(surface: HeightMap) -> None:
     ny, nx = surface.heights.shape
     if min(ny, nx) < _FEWEST:
-        raise InvalidInput(
-            Argument("surface"),
-            f" has {ny} x {nx} points",
-            Must(": must have "),
+        raise must_have(
+            "surface",
             f"{_FEWEST} or more along both sides, fewer resolve no contact",
+            f" has {ny} x {nx} points",
         )
     if surface.dropout_fraction > 0:
-        raise InvalidInput(
-            Argument("surface"),
-            f" has {surface.dropout_fraction:.3g} of its points dropped out",
-            Must(": must have "),
+        raise must_have(
+            "surface",
             "none, see fill_dropouts",
+            f" has {surface.dropout_fraction:.3g} of its points dropped out",
         )
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import brief
-from asperity.base.diagnostics import MUST_BE, Argument, Must, refusal
+from asperity.base.diagnostics import Argument, must_be, must_have, refusal
 from asperity.io.files import check_file
 from asperity.io.read_surface import cell
 from asperity.spectrum import SelfAffineSpectrum, Spectrum
@@ -87,7 +87,7 @@ def read_contacts(path: Path) -> list[Contact]:
     except csv.Error as error:
         raise InvalidInput(f"{error}", where=path) from error
     if not contacts:
-        raise InvalidInput("has 0 rows", Must(": must have "), "1 or more", where=path)
+        raise must_have("", "1 or more", "has 0 rows", where=path)
     return contacts
 
 
@@ -95,9 +95,7 @@ def _contact(line: int, row: Mapping[str, str | None]) -> Contact:
     try:
         values = {name: _value(name, row[name]) for name in _NUMBERS}
         if values["A_over_A0_corrected"] > 1:
-            raise InvalidInput(
-                f"A_over_A0_corrected = {row['A_over_A0_corrected']}", MUST_BE, "at most 1"
-            )
+            raise must_be("", "at most 1", f"A_over_A0_corrected = {row['A_over_A0_corrected']}")
         for name in ("peak_mean_lambda0", "peak_mean_half_lambda0"):
             if values[name] >= values["z_max"]:
                 raise refusal(name, row[name], f"below z_max = {row['z_max']}", text=f"{row[name]}")
