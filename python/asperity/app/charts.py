@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.app.state import Variant
-from asperity.base.celsius import ZERO_CELSIUS
+from asperity.base.quantities import ZERO_CELSIUS
 from asperity.draw.style import COLOURS
 from asperity.prony_fit import PronyFit
 from asperity.rubber import MasterCurve

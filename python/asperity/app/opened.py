@@ -10,12 +10,12 @@ from asperity.app.files import MOST_FILES, Folder, plain
 from asperity.base.diagnostics import must_be, must_have
 from asperity.io.archive import Archive
 from asperity.io.toml import read_toml_text
+from asperity.scene.keys import FILES
 from asperity.scene.scene import check_tables
 
 Dropped = Sequence[tuple[str, bytes]]  # names as the client has them, and contents
 Tables = dict[str, dict[str, Any]]
 _MOST_TEXT = 2**20  # bytes of a scene
-_FILES = {"surface": ("file",), "rubber": ("master_curve", "shift", "isotherms", "strain_sweeps")}
 
 
 def opened(dropped: Dropped, folder: Folder) -> tuple[str, Tables, list[str]]:
@@ -84,8 +84,9 @@ def _tables(name: str, content: bytes) -> Tables:
 def _with_files(name: str, table: Mapping[str, Any], here: Callable[[str], str]) -> dict[str, Any]:
     """The table with the names of files as they are here; what is no name is refused later."""
     table = dict(table)
-    for key in _FILES.get(name, ()):
-        value = table.get(key)
+    for key, value in table.items():
+        if f"{name}.{key}" not in FILES:
+            continue
         if isinstance(value, str):
             table[key] = here(value)
         elif isinstance(value, list) and all(isinstance(one, str) for one in value):

@@ -12,7 +12,7 @@ from asperity.app.state import State
 from asperity.app.upload import Upload
 from asperity.app.words import in_one_line
 from asperity.app.worker import Shows, Worker, in_thread
-from asperity.base.celsius import temperature_text
+from asperity.base.quantities import temperature_text
 from asperity.scene.model import Scene
 
 _SAID = {

@@ -15,7 +15,7 @@ from typing import Any
 from asperity._core import InvalidInput
 from asperity.app.guard import Guard
 from asperity.base.diagnostics import MUST_BE, Argument, valued
-from asperity.base.extras import to_install
+from asperity.base.table import to_install
 
 _OPEN_AFTER = 1.5  # s, by which the server answers on most machines; a browser waits anyway
 _TURN = 5e-4  # s after which a thread that computes lets the server answer

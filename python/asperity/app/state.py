@@ -4,32 +4,27 @@ import math
 import tomllib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
 import numpy as np
 
 from asperity._core import Error, InvalidInput
-from asperity.app.corrections import usual
-from asperity.app.dma import rubber_of
 from asperity.app.files import Folder
-from asperity.app.guess import Guess, guess_columns
-from asperity.app.loaded import OPTIONAL, editable, knows_temperature, loaded, usable
+from asperity.app.guess import Guess, guess_columns, rubber_of
+from asperity.app.loaded import OPTIONAL, editable, knows_temperature, loaded, usable, usual
 from asperity.app.opened import Dropped, Tables, opened
-from asperity.app.remembered import Remembered, RememberedCorrection
 from asperity.app.words import in_words
-from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.diagnostics import Note
+from asperity.base.quantities import ZERO_CELSIUS
 from asperity.demo import hot_scene_text, input_files
 from asperity.io import plausible
+from asperity.scene.kept import KeptBuilders
 from asperity.scene.model import Scene, SceneFriction
-from asperity.scene.rubber import build_measured, build_rubber
-from asperity.scene.scene import Builders
-from asperity.scene.surface import build_surface
-from asperity.scene.write import scene_text
+from asperity.scene.scene import scene_text
 
 Said = TypeVar("Said", Error, Note)
+_MOST_KEPT = 20  # parts of scenes: of one there are up to five
 MOST_VARIANTS = 7  # curves beside the present one: so many colours are told apart
 # Files are read in a thread; what is edited meanwhile must not be lost, so what was read becomes a
 # part of the state only where this is called, in the thread that edits. It returns what is to say.
@@ -78,8 +73,7 @@ class State:
         self.scan: str | None = None  # the file that was dropped last
         self.guesses: dict[str, Guess] = {}  # by the names of files
         self.variants: list[Variant] = []
-        remembered = (Remembered(build_surface), _rubber_builder())
-        self._builders = Builders(*remembered, RememberedCorrection())
+        self._builders = KeptBuilders(_MOST_KEPT)
 
     # --- what is edited ---
 
@@ -270,8 +264,3 @@ class State:
 
     def close(self) -> None:
         self.folder.close()
-
-
-def _rubber_builder() -> Remembered:
-    """The rubber, whose isotherms are shifted once for all temperatures."""
-    return Remembered(partial(build_rubber, measured=Remembered(build_measured)))

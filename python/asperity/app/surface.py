@@ -9,8 +9,7 @@ from nicegui import background_tasks, ui
 
 from asperity._core import Error
 from asperity.app.charts import spectrum_chart
-from asperity.app.controls import Changed, controls
-from asperity.app.parts import Quantity, chart, part, redraw
+from asperity.app.parts import Changed, Quantity, chart, controls, part, redraw
 from asperity.app.state import State
 from asperity.app.upload import Upload
 from asperity.app.words import in_one_line

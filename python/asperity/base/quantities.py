@@ -8,7 +8,12 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from asperity.base.celsius import ZERO_CELSIUS
+ZERO_CELSIUS = 273.15  # [K]
+
+
+def temperature_text(kelvin: float, *, celsius: bool) -> str:
+    """A temperature as pictures and notes tell it."""
+    return f"{kelvin - ZERO_CELSIUS:.4g} °C" if celsius else f"{kelvin:.5g} K"
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """Results and measured objects as tables; pandas, xarray and matplotlib only when asked for."""
 
+import shlex
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
@@ -8,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from asperity.base.extras import to_install
 from asperity.base.value import Value
 
 
@@ -102,3 +103,8 @@ def _in_full(column: Column, sizes: Mapping[str, int]) -> NDArray[Any]:
     order = sorted(range(len(places)), key=places.__getitem__)
     values = np.transpose(np.asarray(column.values), order).reshape(lengths)
     return np.broadcast_to(values, tuple(sizes.values()))
+
+
+def to_install(extra: str) -> str:
+    """A line for the Python that runs: a shell's `pip` may be of another one."""
+    return f"{shlex.quote(sys.executable or 'python3')} -m pip install 'asperity[{extra}]'"

@@ -17,7 +17,7 @@ from asperity._core import InvalidInput
 from asperity.app.serve import serve
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Argument
-from asperity.base.extras import to_install
+from asperity.base.table import to_install
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
 from asperity.draw.figure import check_plot

@@ -26,8 +26,8 @@ from asperity.scene.scan import Scan, read_filled, surface_spectrum
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
+from asperity.tiles.coarse import middle_tile, thinned
 from asperity.tiles.statistics import HeightStatistics, statistics_of
-from asperity.tiles.thinned import middle_tile, thinned
 
 _FLAGS = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
 _TILED = {"tiles": "--tiles", "overlap": "--overlap", "threads": "--threads"}

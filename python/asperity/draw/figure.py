@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.extras import to_install
+from asperity.base.table import to_install
 from asperity.draw.style import colours, fatal_notes, narrow, palette, shades
 
 if TYPE_CHECKING:

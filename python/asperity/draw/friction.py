@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import FATAL_EXTRAPOLATION
-from asperity.base.celsius import ZERO_CELSIUS, temperature_text
+from asperity.base.quantities import ZERO_CELSIUS, temperature_text
 from asperity.draw.directions import DIRECTION, draw_directions
 from asperity.draw.figure import (
     MOST_ENTRIES,

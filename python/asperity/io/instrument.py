@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import Argument, must_be, must_have, refusal
-from asperity.base.extras import to_install
 from asperity.base.quantities import LENGTH_UNITS, SPACING
+from asperity.base.table import to_install
 from asperity.io.archive import Archive
 from asperity.io.fields import rename_in_errors
 from asperity.surface import HeightMap, LineScan

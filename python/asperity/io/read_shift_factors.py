@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from asperity._core import InvalidInput, OutOfRange
 from asperity.base import quantities
 from asperity.base.arguments import path_of
-from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.diagnostics import Note
+from asperity.base.quantities import ZERO_CELSIUS
 from asperity.io import plausible
 from asperity.io.column_names import cells_of, unit_in
 from asperity.io.columns import read_columns

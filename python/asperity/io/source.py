@@ -12,7 +12,7 @@ from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import quoted
-from asperity.base.extras import to_install
+from asperity.base.table import to_install
 from asperity.io.archive import Archive
 from asperity.io.files import check_file
 

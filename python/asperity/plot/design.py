@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from asperity.base.celsius import ZERO_CELSIUS
+from asperity.base.quantities import ZERO_CELSIUS
 from asperity.draw.figure import new_figure, picture
 from asperity.draw.style import grey, palette
 from asperity.scene.design import Design, Worth

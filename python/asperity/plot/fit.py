@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asperity.adhesion import AdhesionFit
-from asperity.base.celsius import ZERO_CELSIUS
+from asperity.base.quantities import ZERO_CELSIUS
 from asperity.draw.figure import MOST_ENTRIES, new_figure, picture, pressure_text, shaded
 from asperity.draw.friction import band_text
 from asperity.draw.style import colours, grey, narrow

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from asperity.base.celsius import ZERO_CELSIUS, temperature_text
+from asperity.base.quantities import ZERO_CELSIUS, temperature_text
 from asperity.dma import MasterCurveBuild
 from asperity.draw.figure import legend, new_figure, picture
 from asperity.draw.style import grey, palette, shades

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
-from asperity.base.celsius import temperature_text
+from asperity.base.quantities import temperature_text
 from asperity.draw.figure import legend, new_figure, picture
 from asperity.draw.style import grey, palette
 from asperity.plot.rubber import draw_isotherms, draw_shifts

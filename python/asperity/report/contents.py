@@ -9,16 +9,45 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from asperity._core import __version__
+from asperity._core import InvalidInput, __version__
 from asperity.base.diagnostics import html_items
 from asperity.draw.figure import pressure_text
+from asperity.io.files import sha256
 from asperity.io.table import input_lines
 from asperity.report.comparison import VERDICTS, Pair, shortened
-from asperity.report.digests import Source
 from asperity.report.errors import Told, errors_of, solved_contacts
 from asperity.report.texts import number_text, printable
 from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.results import notes_of_all, scene_inputs, table_of
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file, and what tells it from any other."""
+
+    path: Path
+    size: int  # bytes
+    sha256: str
+
+
+def digests(paths: Sequence[Path]) -> list[Source]:
+    """Each file once, in the order in which they come."""
+    return [_digest(path) for path in dict.fromkeys(paths)]
+
+
+def check_unchanged(sources: Sequence[Source]) -> None:
+    """Refuse files that have changed since: the report would tell of others."""
+    for source in sources:
+        if _digest(source.path) != source:
+            raise InvalidInput(
+                "has changed while the report was made: start again", where=source.path
+            )
+
+
+def _digest(path: Path) -> Source:
+    result = sha256(path)
+    return Source(path, path.stat().st_size, result)
+
 
 MOST_ROWS = 400  # of a table on the page; the CSV beside it has all
 _COLUMNS = {

@@ -1,7 +1,9 @@
 """The pictures of a report, each for a page and for a telephone."""
 
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -9,11 +11,26 @@ from asperity.draw.style import drawn_in
 from asperity.plot import friction as plot_friction
 from asperity.plot import scene as plot_scene
 from asperity.plot.design import design_figure
-from asperity.report.inline import inline_svg
 from asperity.report.texts import printable
 from asperity.scene.design import design_at_largest, worth_text
 from asperity.scene.model import Scene, SceneFriction
 from asperity.spectrum import SelfAffineSpectrum
+
+_HEAD = re.compile(r"<\?xml.*?\?>|<!DOCTYPE.*?>|<metadata>.*?</metadata>", re.DOTALL)
+_STYLE = re.compile(r"<defs>\s*<style.*?</style>\s*</defs>", re.DOTALL)
+_SIZE = re.compile(r'\s(?:width|height)="[\d.]+pt"|\sversion="1.1"')
+_NAMED = re.compile(r'(\bid="|url\(#|href="#)')
+
+
+def inline_svg(picture: bytes, name: str, text: str) -> str:
+    """The picture as an element of a page. `name` keeps its ids from those of others, and `text` is
+    read out in its place."""
+    svg = _STYLE.sub("", _HEAD.sub("", picture.decode()))  # the page has that style
+    svg = _NAMED.sub(rf"\g<1>{name}-", svg).strip()
+    head, end, rest = svg.partition(">")
+    head = _SIZE.sub("", head)  # the viewBox stays, the page says how wide
+    return f'{head} role="img" aria-label="{escape(text)}"{end}{rest}'
+
 
 _SVG = Path("picture.svg")  # the kind that is drawn
 # Points of letters by the number of panels side by side: the page makes all pictures equally wide.

@@ -18,13 +18,15 @@ from asperity.base.table import imported
 from asperity.io.files import check_output, write_whole
 from asperity.report.comparison import compared, differing_inputs
 from asperity.report.contents import (
+    Source,
+    check_unchanged,
+    digests,
     input_rows,
     pair_texts,
     results_of,
     source_rows,
     versions,
 )
-from asperity.report.digests import Source, check_unchanged, digests
 from asperity.report.drawings import Drawings
 from asperity.report.texts import printable
 from asperity.scene.model import Scene, SceneFriction

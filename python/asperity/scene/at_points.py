@@ -1,77 +1,29 @@
 """A scene at measured points, for numbers of it that change: mu, and its slopes over them."""
 
-import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from functools import partial
+from dataclasses import dataclass
 from pathlib import Path
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
-from asperity.base.diagnostics import must_have
-from asperity.io import plausible
+from asperity.base.diagnostics import Note, fatal_first, must_have
 from asperity.io.read_friction import MeasuredFriction
 from asperity.results.friction import Friction
 from asperity.scene.experiment import pressures
+from asperity.scene.kept import KeptBuilders
 from asperity.scene.model import Scene
-from asperity.scene.parts import build_correction
-from asperity.scene.rubber import BuiltRubber, build_rubber
-from asperity.scene.scene import Builders, scene_of
-from asperity.scene.surface import READ, Surface, build_surface, read_scans
+from asperity.scene.scene import scene_of
 from asperity.scene.unknowns import Unknown, with_numbers
 
 Array = NDArray[np.float64]
 FAILURES = (InvalidInput, OutOfRange, NotConverged)
 _MOST_KEPT = 64
 _OWN = ("temperature_k", "temperature_c")
-
-
-class _Kept:
-    """Builders of the parts of a scene that keep what they built lately, with its notes."""
-
-    def __init__(self) -> None:
-        self._made: dict[Any, Any] = {}
-
-    def builders(self) -> Builders:
-        return Builders(self._surface, self._rubber, self._correction)
-
-    def _surface(self, path: Path, table: object) -> Surface:
-        build = partial(build_surface, path, table, self._read)
-        made: Surface = self._get(("surface", _text(table)), build)
-        return made
-
-    def _read(self, path: Path, values: dict[str, Any], every: bool) -> Any:
-        which = {key: values[key] for key in READ if key in values}
-        key = ("scans", _text(which), every)
-        return self._get(key, lambda: read_scans(path, values, every))
-
-    def _rubber(self, path: Path, table: object, at: float | None) -> BuiltRubber:
-        key = ("rubber", _text(table), at)
-        made: BuiltRubber = self._get(key, lambda: build_rubber(path, table, at))
-        return made
-
-    def _correction(self, path: Path, table: object, spectrum: Any, *scan: Any) -> Any:
-        key = ("correction", _text(table), id(spectrum))
-        build = lambda: (build_correction(path, table, spectrum, *scan), spectrum)  # noqa: E731
-        return self._get(key, build)[0]
-
-    def _get(self, key: Any, build: Callable[[], Any]) -> Any:
-        if key not in self._made:
-            with plausible.collected() as notes:
-                made = build()
-            while len(self._made) >= _MOST_KEPT:
-                self._made.pop(next(iter(self._made)))
-            self._made[key] = made, notes
-        made, notes = self._made[key] = self._made.pop(key)  # now the latest
-        plausible.tell_again(notes)
-        return made
-
-
-def _text(table: object) -> str:
-    return json.dumps(table, sort_keys=True, default=str)
 
 
 class AtPoints:
@@ -81,7 +33,7 @@ class AtPoints:
         self, path: Path, tables: Mapping[str, Any], measured: MeasuredFriction, where: Path
     ) -> None:
         self.path, self.tables, self.measured, self.where = path, tables, measured, where
-        self._build = _Kept().builders()
+        self._build = KeptBuilders(_MOST_KEPT)
         first = self._scene(tables, None)
         self.temperatures = np.unique([] if measured.temperature is None else measured.temperature)
         if first.others and not self.temperatures.size:
@@ -198,3 +150,89 @@ class Slopes:
             return set()
         slopes = {one.key: one.slope(found.gradients, tables) for one in self.unknowns}
         return {key for key, slope in slopes.items() if slope is not None}
+
+
+_NORMAL = NormalDist().inv_cdf(0.975)
+
+
+@dataclass(frozen=True)
+class Prediction:
+    """mu at the points [-], its relative standard errors, NaN where one is unknown, and the 95 %
+    interval on measured points by those that are known and by their scatter, if that is."""
+
+    tables: Mapping[str, Any]
+    mu: Array
+    numbers: Array
+    inputs: Array
+    model: Array
+    lower: Array
+    upper: Array
+    notes: list[Note]
+
+
+def predicted(
+    model: AtPoints,
+    tables: Mapping[str, Any],
+    scatter: float | None,
+    of_fitted: Array | None = None,
+) -> Prediction:
+    """Return the prediction; `of_fitted` is the variance of ln mu by what was fitted, which takes
+    the place of that of the inputs."""
+    size = model.measured.mu.size
+    mu, numbers, inputs, theory = (np.full(size, np.nan) for _ in range(4))
+    if of_fitted is not None:
+        inputs = np.sqrt(of_fitted)
+    notes: list[Note] = []
+    for scene, here, result in model.friction(tables):
+        mu[here] = result.mu
+        with np.errstate(divide="ignore", invalid="ignore"):
+            numbers[here] = result.error_estimate / result.mu
+            theory[here] = result.model_error * result.hysteresis / result.mu
+        notes += scene.notes_with(result.notes)
+        if of_fitted is None and scene.has_errors:
+            band = scene.band_at(model.pressure[here], model.measured.velocity[here])
+            width = NormalDist().inv_cdf((1 + scene.sampling["level"]) / 2)
+            inputs[here] = np.log(band.upper / band.lower) / (2 * width)
+            notes += scene.notes_with(band.notes)
+    known = np.nan_to_num(np.array([numbers, inputs, theory]))
+    away = np.exp(_NORMAL * np.sqrt((known**2).sum(axis=0) + (scatter or 0.0) ** 2))
+    return Prediction(tables, mu, numbers, inputs, theory, mu / away, mu * away, fatal_first(notes))
+
+
+def sentence_on(
+    result: Prediction,
+    inside: int,
+    scatter: float | None,
+    fitted: int,
+    rms_left_out: float,
+    rms_same_mu: float,
+) -> str:
+    """Return what may be published of a comparison, or of a fit of so many numbers."""
+    size = result.mu.size
+    parts = ("numbers", result.numbers), ("inputs", result.inputs), ("model", result.model)
+    shown = [f"{name} {_rms(error)}" for name, error in parts]
+    if fitted:
+        shown[1] = shown[1].replace("inputs", "fitted numbers")
+    which = "left out of the fit one at a time, " if fitted else ""
+    numbers = "one number of it was" if fitted == 1 else f"{fitted} numbers of it were"
+    how = f"{numbers if fitted else 'nothing was'} fitted to them"
+    alone = "" if "adhesion" in result.tables else ", hysteresis alone without an [adhesion],"
+    of_points = "without" if scatter is None else f"with {_share(scatter)} for"
+    return (
+        f"Of {size} measured friction coefficients, {which}the scene{alone} predicts each to "
+        f"{_share(rms_left_out)} rms; the same mu everywhere would be off by "
+        f"{_share(rms_same_mu)}; {how}. {inside} of {size} lie within the 95 % interval of its "
+        f"stated errors ({', '.join(shown)}), {of_points} their own scatter."
+    )
+
+
+def _share(result: float) -> str:
+    return f"{100 * result:.2g} %" if result < 1 else f"{100 * result:.0f} %"
+
+
+def _rms(error: Array) -> str:
+    known = error[np.isfinite(error)]
+    if not known.size:
+        return "not known"
+    some = "" if known.size == error.size else f" at {known.size} points"
+    return f"{_share(float(np.sqrt(np.mean(known**2))))}{some}"

@@ -5,8 +5,8 @@ from contextlib import contextmanager
 from functools import partial
 
 from asperity._core import InvalidInput, OutOfRange
-from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.diagnostics import Argument, Sentence, Unit, Value
+from asperity.base.quantities import ZERO_CELSIUS
 
 _NAMES = ("[conditions] temperature", "[rubber] temperature", "[rubber] reference_temperature")
 

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
 from asperity.results.friction import Friction
-from asperity.results.gradients import Gradients
+from asperity.results.gradients import DENSITIES, SEVERAL, Gradients
 from asperity.scan_contact import ScanContact
 from asperity.scene.model import Scene
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
@@ -20,32 +20,10 @@ from asperity.shift_factors import TemperatureShift, temperature_shift_core
 MORE = np.log(1.1)  # 10 % more, in a logarithm
 DMA_HERTZ = 10.0  # at which tan delta at 0 and 60 C are the trade's handles
 _COLDEST, _HOTTEST = 150.0, 700.0  # [K]
-_NUMBERS = (
-    "equilibrium_modulus",
-    "rms_height",
-    "hurst",
-    "q0",
-    "q1",
-    "rolloff",
-    "gamma",
-    "friction_gamma",
-    "p",
-    "z_max",
-    "z_min",
-    "correction_rms_height",
-    "correction_q0",
-    "shear_stress",
-    "reference_velocity",
-    "width",
-    "strain_per_slope",
-    "density",
-    "heat_capacity",
-    "conductivity",
-    "contact_diameter",
-    "macro_wavenumber",
-    "macro_area",
-    "interface_share",
-)
+# slopes that are no numbers of the scene's parts, or many
+_OTHERS = {*DENSITIES, *SEVERAL, "wavenumber", "angular_frequency", "poisson_ratio"}
+_OTHERS |= {"pressure", "velocity", "temperature", "error_estimate"}
+_NUMBERS = tuple(one.name for one in fields(Gradients) if one.name not in _OTHERS)
 
 
 @dataclass(frozen=True)

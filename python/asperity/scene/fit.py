@@ -13,9 +13,8 @@ from asperity.base.arguments import frozen, number, path_of
 from asperity.base.diagnostics import Argument, Note, fatal_first, must_have, refusal
 from asperity.base.table import imported
 from asperity.io.read_friction import MeasuredFriction, measured_friction
-from asperity.scene.at_points import Array, AtPoints, Slopes
+from asperity.scene.at_points import Array, AtPoints, Prediction, Slopes, predicted, sentence_on
 from asperity.scene.model import Scene
-from asperity.scene.predicted import Prediction, predicted, sentence_on
 from asperity.scene.scene import check_tables, read_tables
 from asperity.scene.scene_fit import SceneFit
 from asperity.scene.unknowns import Unknown, unknowns_of, with_numbers

@@ -1,10 +1,79 @@
 """Keys of a scene's own tables, and the names that errors on their arguments take."""
 
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
 from asperity.base import quantities
+from asperity.base.quantities import ZERO_CELSIUS
 from asperity.friction import friction
-from asperity.io.fields import Field, angles, fields_of, names_of, sweep
-from asperity.scene.heat import TEMPERATURE
+from asperity.io.fields import (
+    Field,
+    angles,
+    fields_of,
+    file_name,
+    file_names,
+    file_or_files,
+    kelvin_or_celsius,
+    names_of,
+    refuse,
+    sweep,
+)
+from asperity.scene.parts import ADHESION, CORRECTIONS, HEATING
+from asperity.scene.rubber import RUBBER, BuiltRubber
+from asperity.scene.surface import SURFACE
 from asperity.uncertainty.band import friction_band
+
+MOST_TEMPERATURES = MOST_DIRECTIONS = 1000  # of a list
+TEMPERATURE = kelvin_or_celsius(
+    sweep,
+    "temperature",
+    "of the rubber, the place where a temperature goes; for `asperity friction` it may be a list. "
+    "A single number may stand in `[rubber]` instead; both are refused. A column at the end of the "
+    "table. [How to change the temperature](../howto/temperature.md) has examples",
+)
+
+
+LISTED = (*TEMPERATURE, "direction_deg")  # of [conditions]: each entry is a scene of its own
+
+
+def temperatures_of(path: Path, conditions: dict[str, Any]) -> list[float | None]:
+    """Temperatures [K] of [conditions], taken out of it; None where it has none."""
+    entries = {key: conditions.pop(key) for key in TEMPERATURE if key in conditions}
+    if len(entries) > 1:
+        refuse(path, "[conditions] temperature_c", "must be left out where temperature_k is given")
+    if not entries:
+        return [None]
+    [(key, values)] = entries.items()
+    kelvin = values + (ZERO_CELSIUS if key == "temperature_c" else 0)
+    if len(kelvin) > MOST_TEMPERATURES:
+        problem = f"has {len(kelvin)} entries: must be at most {MOST_TEMPERATURES}"
+        refuse(path, f"[conditions] {key}", problem)
+    return [float(one) for one in kelvin]
+
+
+def directions_of(path: Path, conditions: dict[str, Any]) -> list[float | None]:
+    """Directions of sliding [degrees] of [conditions], taken out of it; None where it has none."""
+    values = conditions.pop("direction_deg", None)
+    if values is None:
+        return [None]
+    if len(values) > MOST_DIRECTIONS:
+        problem = f"has {len(values)} entries: must be at most {MOST_DIRECTIONS}"
+        refuse(path, "[conditions] direction_deg", problem)
+    return [float(one) for one in values]
+
+
+def check_heated(path: Path, temperature: float | None, rubber: BuiltRubber) -> None:
+    """Refuse heat where it has nothing to start from, or where nothing follows it."""
+    if temperature is None:
+        problem = "needs [conditions] temperature_k or temperature_c, from which the rubber warms"
+        refuse(path, "[heating]", problem)
+    if rubber.shift is None:
+        if "vertical_shift" in rubber.values:
+            problem = "must be left out where [heating] is given: its model has no b_T"
+            refuse(path, "[rubber] vertical_shift", problem)
+        refuse(path, "[heating]", "needs [rubber] shift, or wlf_c1 and wlf_c2_k")
+
 
 POINTS = {
     "pressure_pa": Field(
@@ -35,3 +104,26 @@ SOLVER = fields_of(friction, "rtol", "form", "method")
 NAMES = {**names_of("conditions", CONDITIONS), **names_of("solver", SOLVER)}
 UNCERTAINTY = fields_of(friction_band, "samples", "seed", "level")
 NOTED = {"heating": "[heating]", "strain_factors": "[rubber] strain"}  # arguments that notes name
+KEYS: dict[str, dict[str, Field]] = {  # of every table that a scene may have
+    "surface": SURFACE,
+    "rubber": RUBBER,
+    "conditions": CONDITIONS,
+    "correction": {key: one for kind in CORRECTIONS.values() for key, one in kind.items()},
+    "adhesion": ADHESION,
+    "heating": HEATING,
+    "solver": SOLVER,
+    "uncertainty": UNCERTAINTY,
+}
+_NAMED = (file_name, file_names, file_or_files)
+FILES = tuple(f"{t}.{key}" for t, of in KEYS.items() for key, f in of.items() if f.read in _NAMED)
+
+
+def files_of(tables: Mapping[str, Any]) -> list[str]:
+    """Files that the tables of a scene name."""
+    files: list[str] = []
+    for key in FILES:
+        table, _, field = key.partition(".")
+        entries = tables.get(table)
+        names = entries.get(field) if isinstance(entries, Mapping) else None
+        files += [names] if isinstance(names, str) else list(names or [])
+    return files

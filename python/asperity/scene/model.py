@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from asperity._core import OutOfRange, extrapolation_notes
 from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.base.arguments import known
-from asperity.base.celsius import temperature_text
 from asperity.base.codes import FATAL, NOTES
 from asperity.base.diagnostics import Note, fatal_first
+from asperity.base.quantities import temperature_text
 from asperity.base.value import value
 from asperity.contact import contact_area, contact_notes, pressure_distribution
 from asperity.correction import Correction
@@ -30,7 +30,7 @@ from asperity.results.heat_notes import with_size_of_heat
 from asperity.rubber import Rubber
 from asperity.scan_contact import ScanContact
 from asperity.scene.celsius import all_in_celsius, celsius_in_errors
-from asperity.scene.keys import NAMES, NOTED, UNCERTAINTY
+from asperity.scene.keys import NAMES, NOTED, UNCERTAINTY, files_of
 from asperity.scene.parts import HEATING_NAMES
 from asperity.scene.progress import Progress as Progress
 from asperity.scene.progress import with_contacts
@@ -169,12 +169,7 @@ class Scene:
     @property
     def sources(self) -> list[Path]:
         """The scene file and the files that it names."""
-        rubber = self.inputs["rubber"]
-        scans = self.inputs["surface"].get("file")
-        names = [*(scans if isinstance(scans, list) else [scans]), rubber.get("master_curve")]
-        names += [rubber.get("shift"), *rubber.get("isotherms", [])]
-        names += rubber.get("strain_sweeps", [])
-        return [self.path, *(self.path.parent / name for name in names if name is not None)]
+        return [self.path, *(self.path.parent / name for name in files_of(self.inputs))]
 
     @property
     def points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

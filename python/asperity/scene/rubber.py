@@ -9,8 +9,8 @@ from pathlib import Path
 
 from asperity._core import InvalidInput, OutOfRange
 from asperity.base import quantities
-from asperity.base.celsius import ZERO_CELSIUS
 from asperity.base.diagnostics import Note, valued
+from asperity.base.quantities import ZERO_CELSIUS
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import (

@@ -1,11 +1,14 @@
 """A scene: a TOML file that names the parts of a computation, read into objects of the core."""
 
+import json
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from glob import glob
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import path_of
@@ -25,8 +28,17 @@ from asperity.io.files import check_file
 from asperity.io.toml import read_toml_text
 from asperity.io.typed import Typed, typed_in
 from asperity.scene.celsius import celsius_in_errors
-from asperity.scene.heat import LISTED, check_heated, directions_of, temperatures_of
-from asperity.scene.keys import CONDITIONS, POINTS, SOLVER, UNCERTAINTY
+from asperity.scene.keys import (
+    CONDITIONS,
+    KEYS,
+    LISTED,
+    POINTS,
+    SOLVER,
+    UNCERTAINTY,
+    check_heated,
+    directions_of,
+    temperatures_of,
+)
 from asperity.scene.model import Scene
 from asperity.scene.parts import (
     Values,
@@ -37,27 +49,17 @@ from asperity.scene.parts import (
 from asperity.scene.rubber import BuiltRubber, build_rubber
 from asperity.scene.surface import Surface, build_surface
 
-_TABLES = dict.fromkeys(
-    (
-        "surface",
-        "rubber",
-        "conditions",
-        "correction",
-        "adhesion",
-        "heating",
-        "solver",
-        "uncertainty",
-    )
-)
 
-
-@dataclass(frozen=True)
+@dataclass
 class Builders:
     """What builds the parts of a scene: the functions here, or others that keep what they built."""
 
     surface: Callable[[Path, object], Surface] = build_surface
     rubber: Callable[[Path, object, float | None], BuiltRubber] = build_rubber
     correction: Callable[..., tuple[Correction, Values]] = build_correction
+
+
+_PLAIN = Builders()
 
 
 def read_scene(path: str | os.PathLike[str]) -> Scene:
@@ -95,9 +97,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     return load_scene(path, for_friction=True)
 
 
-def load_scene(
-    path: str | os.PathLike[str], *, for_friction: bool = False, builders: Builders = Builders()
-) -> Scene:
+def load_scene(path: str | os.PathLike[str], *, for_friction: bool = False) -> Scene:
     """Read a scene file and build the parts that it names.
 
     `for_friction`: it may ask for heat and for several temperatures, which only friction and its
@@ -109,11 +109,11 @@ def load_scene(
         In one line: file, table and key, the value found and what is allowed.
     """
     where = path_of(path, "path")
-    return scene_of(where, read_tables(where), for_friction=for_friction, builders=builders)
+    return scene_of(where, read_tables(where), for_friction=for_friction)
 
 
 def scene_of(
-    path: Path, tables: dict[str, Any], *, for_friction: bool, builders: Builders = Builders()
+    path: Path, tables: dict[str, Any], *, for_friction: bool, builders: Builders = _PLAIN
 ) -> Scene:
     """Build a scene as `build_scene` does, with a note of each number that is unusual."""
     typed = typed_in(tables)
@@ -123,7 +123,7 @@ def scene_of(
 
 
 def build_scene(
-    path: Path, tables: dict[str, Any], *, for_friction: bool, builders: Builders = Builders()
+    path: Path, tables: dict[str, Any], *, for_friction: bool, builders: Builders = _PLAIN
 ) -> Scene:
     """Build a scene of its tables; `path` is whose errors they are, and where its files lie."""
     conditions = read_table(path, "conditions", tables["conditions"], CONDITIONS)
@@ -267,10 +267,34 @@ def read_toml(path: Path) -> dict[str, Any]:
 def check_tables(path: Path, tables: Mapping[str, Any]) -> None:
     """Refuse tables that no scene has, and a scene without those that it needs."""
     for name, table in tables.items():
-        if name not in _TABLES:
-            hint = nearest(name, _TABLES, "[{}]")
+        if name not in KEYS:
+            hint = nearest(name, KEYS, "[{}]")
             kind, field = ("table", f"[{name}]") if isinstance(table, dict) else ("key", name)
             refuse(path, field, f"unknown {kind}, {hint}")
     for name in ("surface", "rubber", "conditions"):
         if name not in tables:
             refuse(path, f"[{name}]", "missing: a scene needs this table")
+
+
+def scene_text(tables: Mapping[str, Mapping[str, Any]]) -> str:
+    """TOML that reads back as the same tables; numbers have the shortest digits that do."""
+    return "\n".join(f"[{name}]\n{_lines(table)}" for name, table in tables.items())
+
+
+def _lines(table: Mapping[str, Any]) -> str:
+    return "".join(f"{key} = {_value(value)}\n" for key, value in table.items())
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int | float):
+        return repr(value)  # inf and nan are TOML's words too
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Mapping):
+        inside = ", ".join(f"{json.dumps(key)} = {_value(one)}" for key, one in value.items())
+        return f"{{ {inside} }}" if inside else "{}"
+    return f"[{', '.join(_value(one) for one in value)}]"

@@ -9,7 +9,7 @@ from asperity.base.arguments import Array
 from asperity.base.diagnostics import Note
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
-from asperity.scene.write import scene_text
+from asperity.scene.scene import scene_text
 
 
 @value

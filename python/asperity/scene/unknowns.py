@@ -15,7 +15,7 @@ from asperity.base.arguments import choice, number, shortened
 from asperity.base.diagnostics import MUST_BE, Argument, must_be, refusal
 from asperity.io.fields import Field, count, nearest
 from asperity.results.gradients import Gradients
-from asperity.scene.known import KEYS
+from asperity.scene.keys import KEYS
 
 _KEY = re.compile(r"(\w+)\.(\w+)(?:\[(\d+)\])?")
 _MEASURED = ("conditions.pressure_pa", "conditions.velocity_m_s")

@@ -14,7 +14,8 @@ from asperity.base.arguments import brief
 from asperity.base.diagnostics import Argument, must_be, must_have, refusal, valued
 from asperity.io import plausible
 from asperity.io.fields import Field, angles, nearest, read_table, sweep
-from asperity.scene.known import KEYS, KEYS_OF_KIND
+from asperity.scene.keys import KEYS
+from asperity.scene.parts import CORRECTIONS
 
 PRESSURE, VELOCITY = "conditions.pressure_pa", "conditions.velocity_m_s"
 POINTS = (PRESSURE, VELOCITY)  # what changes from point to point of a scene
@@ -139,8 +140,8 @@ def _values(path: Path, key: str, entry: object, axis: str) -> Sequence[Any]:
             continue
         if key == "correction.kind" and value == _WITHOUT:
             continue
-        if key == "correction.kind" and value not in KEYS_OF_KIND:
-            allowed = nearest(str(value), {**KEYS_OF_KIND, _WITHOUT: {}})
+        if key == "correction.kind" and value not in CORRECTIONS:
+            allowed = nearest(str(value), {**CORRECTIONS, _WITHOUT: {}})
             raise InvalidInput(
                 Argument(f"over {key}"), " = ", valued(value), f": {allowed}", where=path
             )
@@ -219,7 +220,7 @@ def with_values(tables: Mapping[str, Any], values: Mapping[str, Any]) -> dict[st
         if kind in (None, _WITHOUT):
             changed.pop("correction", None)
         else:
-            known = KEYS_OF_KIND[kind]
+            known = CORRECTIONS[kind]
             own = {key.removeprefix("correction.") for key in values}
             settings = changed["correction"]
             changed["correction"] = {k: v for k, v in settings.items() if k in known or k in own}

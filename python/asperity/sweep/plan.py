@@ -15,10 +15,10 @@ from asperity.base.arguments import brief
 from asperity.base.diagnostics import Argument, Note, must_be, refusal
 from asperity.io.fields import nearest
 from asperity.results.friction import COLUMNS, HEAT, Friction
-from asperity.scene.known import FILES
+from asperity.scene.keys import FILES, files_of
 from asperity.scene.scene import check_tables
 from asperity.sweep.axes import POINTS, PRESSURE, Axis, axes_of, with_values
-from asperity.sweep.parts import digest, files_of
+from asperity.sweep.parts import digest
 from asperity.sweep.task import BAND, Task
 
 MOST_POINTS = 2**19  # of a task: what a worker sends back at once, 4 MB a variable

@@ -28,8 +28,8 @@ from asperity.sweep.existing import (
 from asperity.sweep.plan import Plan, cut_of, plan_of
 from asperity.sweep.store import ZarrStore
 from asperity.sweep.tally import Memory
+from asperity.sweep.task import work
 from asperity.sweep.timing import timed
-from asperity.sweep.work import work
 
 Progress = Callable[[int, int], object]
 

@@ -18,11 +18,17 @@ from asperity.base.table import imported
 from asperity.io.aside import folder_beside
 from asperity.sweep.chunks import FAILURE, Place, checksums, content_of
 from asperity.sweep.describe import Described, consolidate
-from asperity.sweep.existing import attributes_of, open_store, refuse_another, refuse_taken
-from asperity.sweep.journal import JOURNAL, Journal
+from asperity.sweep.existing import (
+    JOURNAL,
+    Journal,
+    attributes_of,
+    open_store,
+    refuse_another,
+    refuse_taken,
+)
 from asperity.sweep.outcome import Outcome
 from asperity.sweep.tally import Tally
-from asperity.sweep.work import TOKEN, token_of, write_box
+from asperity.sweep.task import TOKEN, token_of, write_box
 
 
 class ZarrStore:

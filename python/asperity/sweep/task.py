@@ -3,7 +3,7 @@
 import itertools
 import math
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -15,11 +15,12 @@ from asperity._core import Error, InvalidInput, NotConverged, OutOfRange, __vers
 from asperity.friction import Friction
 from asperity.io import plausible
 from asperity.scene.model import Scene
-from asperity.scene.scene import Builders, build_scene
+from asperity.scene.scene import build_scene
+from asperity.sweep import chunks
 from asperity.sweep.axes import PRESSURE, VELOCITY, Axis, with_values
 from asperity.sweep.chunks import Place
 from asperity.sweep.outcome import Numbers, Outcome
-from asperity.sweep.parts import ChangedFile, KeptBuilders
+from asperity.sweep.parts import ChangedFile, WorkersBuilders
 
 _FAILURES = (InvalidInput, NotConverged, OutOfRange)
 BAND = ("mu_low", "mu_high")
@@ -203,10 +204,8 @@ def _scene(
     lowest, highest = task.pressures if np.ndim(pressure) else (float(pressure),) * 2
     alone = 1.0 if np.ndim(velocity) else float(velocity)
     placed["conditions"] |= {"pressure_pa": lowest, "velocity_m_s": alone}
-    kept = KeptBuilders(task.digests)
-    builders = Builders(kept.surface, kept.rubber, kept.correction)
     with plausible.collected() as notes:
-        scene = build_scene(path, placed, for_friction=True, builders=builders)
+        scene = build_scene(path, placed, for_friction=True, builders=WorkersBuilders(task.digests))
         with suppress(InvalidInput):  # of some of the points, which fail on their own
             name = "[conditions] pressure_pa"
             plausible.check_load(name, highest, scene.rubber._stiffest, path=path)
@@ -284,3 +283,40 @@ def _place_of(at: tuple[Any, ...], place: tuple[int, ...], shape: tuple[int, ...
     """The index of a point in the box, of that in a scene's pressures and velocities."""
     inside = iter(place if len(shape) == 2 else [max(place)])
     return tuple(one if isinstance(one, int) else next(inside) for one in at)
+
+
+TOKEN = "_sweep/token"  # a text that no other store has, by which a worker knows this one
+
+
+def work(task: Task) -> Outcome:
+    """Compute a task. What is for a store is written if this process sees it, else it goes back."""
+    outcome = compute(task)
+    if task.store is not None:
+        outcome.contents = chunks.encoded(outcome, task.variables, task.store.cut)
+        outcome.sums = chunks.checksums(outcome.contents)
+        outcome.values, outcome.failure = {}, None
+        if _sees(task.store):
+            write_box(task.store, task.variables, outcome)
+    return outcome
+
+
+def write_box(store: Place, variables: Sequence[str], outcome: Outcome) -> None:
+    """Write the files of a box, each whole or not at all."""
+    try:
+        chunks.write(store.files(outcome.start, variables), outcome.contents or [])
+    except OSError as error:
+        reason = error.strerror or error
+        raise Error(f"{store.path}: cannot be written: {reason}; --resume goes on") from error
+    outcome.contents = None
+
+
+def token_of(path: Path) -> str | None:
+    """The text that is in a store's token; None where it cannot be read."""
+    try:
+        return (path / TOKEN).read_text()
+    except (OSError, ValueError):
+        return None
+
+
+def _sees(store: Place) -> bool:
+    return token_of(Path(store.path)) == store.token

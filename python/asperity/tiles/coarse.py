@@ -14,8 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.base.arguments import Array
+from asperity.surface import HeightMap
+from asperity.tiles.grid import TileSides, tile_shape
 from asperity.tiles.share import Workers
-from asperity.tiles.source import Box, Piece, Shape, Source, corner_of, refuse_infinite
+from asperity.tiles.source import DEFAULT, Box, Piece, Shape, Source, corner_of, refuse_infinite
 
 _BLOCKS = 256  # of the coarse map in the shorter side of a tile
 _DIRECTIONS = 16  # in a quarter of a ring
@@ -141,3 +143,27 @@ def _let_through(q: Array, block: int, pixel: float) -> tuple[Array, Array]:
     with np.errstate(invalid="ignore", divide="ignore"):
         share = np.sin(block * half) / (block * np.sin(half))
     return waves, np.where(half == 0, 1.0, share) ** 2
+
+
+_MOST_PIXELS = 1000  # along a side
+
+
+def thinned(source: Source, *, threads: int = 1) -> HeightMap:
+    """Return the means over blocks of the map, at most a thousand along a side."""
+    side = math.ceil(max(source.shape) / _MOST_PIXELS)
+    down, along = (min(side, n) for n in source.shape)
+    coarse = coarsen(source, (down, along), (DEFAULT, DEFAULT), Workers(threads))
+    return HeightMap(coarse.heights, pixel_size=coarse.pixel_size)
+
+
+def middle_tile(source: Source, tiles: TileSides, max_dropouts: float) -> HeightMap | None:
+    """Return the tile in the middle, its drop-outs filled; None where it has too many."""
+    sides = tile_shape(tiles, source.shape, source.pixel_size)
+    down, along = ((n - part) // 2 for n, part in zip(source.shape, sides, strict=True))
+    box = slice(down, down + sides[0]), slice(along, along + sides[1])
+    heights = source.piece(box).read()
+    missing = np.count_nonzero(np.isnan(heights))
+    if missing == heights.size or missing > max_dropouts * heights.size:
+        return None
+    tile = HeightMap(heights, pixel_size=source.pixel_size)
+    return tile.fill_dropouts(max_fraction=max_dropouts) if missing else tile

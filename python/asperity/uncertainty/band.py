@@ -19,7 +19,7 @@ from asperity.base.arguments import (
     whole,
 )
 from asperity.base.diagnostics import Argument, Note, refusal
-from asperity.base.in_order import in_order
+from asperity.base.executors import in_order
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.correction import Correction, PartialContact

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from asperity.base.celsius import ZERO_CELSIUS
+from asperity.base.quantities import ZERO_CELSIUS
 from asperity.correction import Correction
 from asperity.friction import Friction, friction
 from asperity.heating import Heating

@@ -14,8 +14,8 @@ nicegui = pytest.importorskip("nicegui", reason="the app needs asperity[app]")
 from nicegui.element import Element  # noqa: E402
 from nicegui.page import page  # noqa: E402
 
-from asperity.app import controls as controls_module  # noqa: E402
-from asperity.app.controls import controls  # noqa: E402
+from asperity.app import parts as controls_module  # noqa: E402
+from asperity.app.parts import controls  # noqa: E402
 
 GREENWOOD = CORRECTIONS["greenwood-williamson"]
 CASES = {

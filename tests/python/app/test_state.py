@@ -12,16 +12,15 @@ import pytest
 
 import asperity
 from asperity.app import files
-from asperity.app.computed import contributions
-from asperity.app.corrections import OF_SCAN, PLAIN, offered
 from asperity.app.downloads import map_of, report_of, scene_archive, table_csv
 from asperity.app.guess import guess_columns
+from asperity.app.loaded import OF_SCAN, PLAIN, offered
 from asperity.app.state import MOST_VARIANTS, State
+from asperity.app.worker import contributions
 from asperity.cli.main import main
 from asperity.demo import input_files
 from asperity.scene.model import Scene
-from asperity.scene.scene import load_scene
-from asperity.scene.write import scene_text
+from asperity.scene.scene import load_scene, scene_text
 from helpers.dropped import dma_bytes, scan_bytes
 
 pytest.importorskip("matplotlib", reason="the app needs asperity[app]")

@@ -12,12 +12,11 @@ from typing import Any
 import pytest
 
 import asperity
-from asperity.app import dma, remembered
+from asperity.app import guess as guessed
 from asperity.app.downloads import scene_archive
 from asperity.app.opened import _unpacked
-from asperity.app.remembered import Remembered, RememberedCorrection
 from asperity.app.state import State
-from asperity.scene import surface
+from asperity.scene import kept, surface
 from helpers.dropped import dma_bytes, scan_bytes
 
 OURS, THEIRS, EDITED = 81e3, 2e5, 9e4  # Pa
@@ -89,8 +88,8 @@ def test_what_is_edited_while_files_are_read_is_kept(
     name = state.keep_dma("dma.csv", dma_bytes())
     guess = state.guesses[name]
     chosen = {"columns": guess.columns, "units": guess.units, "modulus": guess.modulus}
-    held, before = Held(dma.read_isotherms), state.rubber
-    monkeypatch.setattr(dma, "read_isotherms", held)
+    held, before = Held(guessed.read_isotherms), state.rubber
+    monkeypatch.setattr(guessed, "read_isotherms", held)
     with held.during(lambda: state.use_dma([name], chosen)) as reading:
         state.conditions = {**state.conditions, "pressure_pa": EDITED, "temperature_c": 33.0}
     assert state.rubber == before
@@ -116,47 +115,9 @@ def test_to_load_writes_no_file_that_others_may_read_half(state: State) -> None:
     assert set(state.folder.path.iterdir()) == before
 
 
-class Emptied(dict[str, Any]):
-    """Another thread puts its own in the place of each, as soon as it is kept."""
-
-    def __setitem__(self, key: str, value: Any) -> None:
-        super().__setitem__("theirs", value)
-
-
-def test_what_is_kept_may_go_while_it_is_used() -> None:
-    built = Remembered(lambda one: one)
-    built._kept = Emptied()
-    assert [built(i) for i in range(3)] == [0, 1, 2]
-
-
-def test_of_parts_the_newest_are_kept() -> None:
-    asked: list[int] = []
-    built = Remembered(lambda one: asked.append(one) or one)
-    assert [built(i) for i in (0, 1, 2, 3, 0, 4, 1, 0, 4, 3)] == [0, 1, 2, 3, 0, 4, 1, 0, 4, 3]
-    assert asked == [0, 1, 2, 3, 4, 0]
-
-
 def test_a_correction_is_that_of_its_own_spectrum(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Another thread asks for that of another spectrum, as soon as the first is kept."""
+    monkeypatch.setattr(kept, "build_correction", lambda path, table, one: (one.name, {}))
     first, second = SimpleNamespace(name="first"), SimpleNamespace(name="second")
-
-    class Overtaken(RememberedCorrection):
-        last: Any = None
-        overtaken = False
-
-        @property
-        def _last(self) -> Any:
-            return self.last
-
-        @_last.setter
-        def _last(self, value: Any) -> None:
-            self.last = value
-            if value is not None and not self.overtaken:
-                self.overtaken = True
-                assert self(Path(), {}, second)[0] == "second"
-
-    def build(path: Path, table: object, spectrum: Any) -> tuple[Any, dict[str, Any]]:
-        return spectrum.name, {}
-
-    monkeypatch.setattr(remembered, "build_correction", build)
-    assert Overtaken()(Path(), {}, first)[0] == "first"
+    builders = kept.KeptBuilders(2)
+    for one in (first, second, first):
+        assert builders.correction(Path(), {}, one)[0] == one.name

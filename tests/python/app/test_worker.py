@@ -11,9 +11,8 @@ import pytest
 import asperity
 from asperity import Error
 from asperity.app import worker as app_worker
-from asperity.app.computed import with_band
 from asperity.app.state import State
-from asperity.app.worker import Found, Shows, Worker
+from asperity.app.worker import Found, Shows, Worker, with_band
 from asperity.scene.progress import with_contacts
 
 

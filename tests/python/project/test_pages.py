@@ -13,7 +13,8 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.cli.parser import parser
-from asperity.scene.known import KEYS, KEYS_OF_KIND
+from asperity.scene.keys import KEYS
+from asperity.scene.parts import CORRECTIONS
 from asperity.scene.scene import load_scene
 from helpers.examples import SWEEPS
 from helpers.extensions import extension
@@ -205,7 +206,7 @@ def test_the_page_of_scenes_has_the_tables_of_the_declarations() -> None:
     assert page == extension("scene_tables").page(page)
     assert [key for table in KEYS.values() for key in table if f"`{key}`" not in page] == []
     kinds = PAGES["docs/howto/which_correction.md"]
-    assert [kind for kind in KEYS_OF_KIND if f"`{kind}`" not in kinds] == []
+    assert [kind for kind in CORRECTIONS if f"`{kind}`" not in kinds] == []
 
 
 def test_the_reference_of_python_has_every_name() -> None:

@@ -130,7 +130,7 @@ def test_points_have_temperatures_of_their_own(scene):
     for t in (293.15, 323.15):
         hot = {**table, "rubber": {**table["rubber"], "temperature_c": t - 273.15}}
         path = scene("hot.toml")
-        path.write_text(asperity.scene.write.scene_text(hot))
+        path.write_text(asperity.scene.scene.scene_text(hot))
         here = kelvin == t
         mu[here] = read_scene(path).friction_at(PRESSURE[here], VELOCITY[here]).mu
     measured = {"mu": mu, "velocity": VELOCITY, "pressure": PRESSURE, "temperature": kelvin}

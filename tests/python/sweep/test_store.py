@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.sweep import chunks, describe, journal, run, store, work
+from asperity.sweep import chunks, describe, existing, run, store, task
 from helpers.cases import case
 from helpers.sweeps import SCENE as STIFF
 
@@ -215,7 +215,7 @@ def test_a_worker_that_does_not_see_the_store_sends_its_numbers(expected, monkey
     with sweep(SCENE, OVER, store="a.zarr") as result:
         same(result, expected)
     assert sent == [None] * 12
-    monkeypatch.setattr(work, "_sees", lambda *_: False)
+    monkeypatch.setattr(task, "_sees", lambda *_: False)
     with sweep(SCENE, OVER, store="b.zarr") as result:
         same(result, expected)
     assert all(sent[12:])
@@ -241,7 +241,7 @@ def test_two_drivers_do_not_write_to_one_store(monkeypatch):
 @pytest.mark.parametrize("full", ["hysteresis", "journal"])
 def test_a_full_disk_ends_in_a_line_and_can_be_resumed(full, expected, monkeypatch):
     """Half of a file is written, which has to be no box."""
-    plain = {"hysteresis": chunks.os.replace, "journal": journal.Journal.add}[full]
+    plain = {"hysteresis": chunks.os.replace, "journal": existing.Journal.add}[full]
     count = []
 
     def replace(part, file):
@@ -260,7 +260,7 @@ def test_a_full_disk_ends_in_a_line_and_can_be_resumed(full, expected, monkeypat
 
     with monkeypatch.context() as patched:
         if full == "journal":
-            patched.setattr(journal.Journal, "add", add)
+            patched.setattr(existing.Journal, "add", add)
         else:
             patched.setattr(chunks.os, "replace", replace)
         with pytest.raises(asperity.Error, match=r"a\.zarr: cannot be written: No space") as told:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.scene.kept import Kept
 from asperity.sweep import parts, plan, run
-from asperity.sweep.parts import Kept
 from helpers.sweeps import COLUMNS, RUBBER, SCENE, plain_loop
 
 xarray = pytest.importorskip("xarray", reason="a sweep needs asperity[sweep]")

@@ -91,7 +91,7 @@ def test_what_is_missing_is_said_with_what_to_install():
 import sys
 sys.modules.update(dict.fromkeys(["pandas", "xarray", "matplotlib"]))  # as if not installed
 import asperity
-from asperity.base.extras import to_install
+from asperity.base.table import to_install
 spectrum = asperity.TabulatedSpectrum(wavenumber=[1, 2], density=[4, 3])
 for call, said in {
     spectrum.to_xarray: "xarray is missing: " + to_install("tables"),
