@@ -8,9 +8,9 @@ from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.app.files import Folder
-from asperity.base.arguments import quoted
 from asperity.base.diagnostics import must_have
-from asperity.io.column_names import cells_of, find_header
+from asperity.io.column_names import cells_of, find_header, unit_in
+from asperity.io.columns import read_columns
 from asperity.io.read_dma import read_isotherms
 from asperity.io.source import read_source
 
@@ -26,11 +26,6 @@ _NAMED = {
     "frequency": r"freq|^(f|w|ω|omega|ang\w*)($|[ _\[(/.])|\bhz\b|rad/s",
     "loss": r"''|\"|″|′′|loss|verlust|[eg]_?(2|pp|dd|dprime)(?![a-z])|imag",
     "storage": r"'|′|stor|speicher|[eg]_?(1|p|d|prime)(?![a-z])|real",
-}
-_SAID = {
-    "frequency": {"rad/s": r"rad", "Hz": r"hz|1/s"},
-    "modulus": {"GPa": r"gpa", "MPa": r"mpa", "kPa": r"kpa", "Pa": r"pa(?![a-z])"},
-    "temperature": {"C": r"cels|deg|(?<![a-z])c(?![a-z])", "K": r"kelv|(?<![a-z])k(?![a-z])"},
 }
 _ROWS = 200  # from which sizes are seen
 _MOST_KELVIN_BELOW = 150.0  # temperatures of DMA below it are in C
@@ -61,14 +56,11 @@ def guess_columns(path: Path) -> Guess:
         if result is not None:
             columns[quantity] = result
     below = dict(zip(header.names, header.units, strict=False))
-    units = {
-        kind: _unit(kind, [f"{columns[q]} {below.get(columns[q], '')}" for q in of if q in columns])
-        for kind, of in (
-            ("frequency", ["frequency"]),
-            ("modulus", ["storage", "loss"]),
-            ("temperature", ["temperature"]),
-        )
-    }
+    units = dict.fromkeys(UNITS, "")
+    for quantity, name in columns.items():
+        kind = quantity if quantity in UNITS else "modulus"
+        said = (unit_in(kind, text) for text in (below.get(name, ""), name))
+        units[kind] = units[kind] or next((one for one in said if one in UNITS[kind]), "")
     rows = [cells_of(line) for number, line in lines if number > header.number][:_ROWS]
     for kind, quantity in (("modulus", "storage"), ("temperature", "temperature")):
         if not units[kind] and quantity in columns:
@@ -77,24 +69,6 @@ def guess_columns(path: Path) -> Guess:
     shear = re.match(r"\W*g|.*shear", columns.get("storage", ""), re.IGNORECASE)
     known = {kind: unit or UNITS[kind][0] for kind, unit in units.items()}
     return Guess(names, columns, known, "G" if shear else "E")
-
-
-def numbers_of(path: Path, name: str) -> list[float]:
-    """All numbers of the column of that name."""
-    lines = read_source(path).lines
-    header = find_header(lines)
-    if header is None or name not in header.names:
-        raise InvalidInput(f"no column is named {quoted(name)}", where=path)
-    rows = [cells_of(line) for number, line in lines if number > header.number]
-    return _numbers(rows, header.names.index(name))
-
-
-def _unit(kind: str, said: Sequence[str]) -> str:
-    for text in said:
-        for unit, pattern in _SAID[kind].items():
-            if re.search(pattern, text, re.IGNORECASE):
-                return unit
-    return ""
 
 
 def _by_size(kind: str, numbers: Sequence[float]) -> str:
@@ -136,7 +110,11 @@ def rubber_of(
         further = {"extrapolation": "power-law"} if beyond else {}
         return {"master_curve": names[0], **read, **further}, None, ""
     column = settings["columns"]["frequency"]
-    single = [name for name in names if len(set(numbers_of(folder.path / name, column))) == 1]
+    frequencies = {
+        name: read_columns(folder.path / name, {column: column}, {}).values[column]
+        for name in names
+    }
+    single = [name for name, hertz in frequencies.items() if len(set(hertz)) == 1]
     swept = [name for name in names if name not in single]
     if not swept:
         problem = "holds one frequency: must be sweeps of frequency at several temperatures"

@@ -8,7 +8,6 @@ from typing import Protocol
 
 from nicegui import ui
 
-from asperity._core import Error
 from asperity.app.conditions import ConditionsPart
 from asperity.app.parts import heading
 from asperity.app.result import ResultPart
@@ -16,8 +15,7 @@ from asperity.app.rubber import RubberPart
 from asperity.app.state import State
 from asperity.app.surface import SurfacePart
 from asperity.app.upload import Upload
-from asperity.app.words import in_one_line
-from asperity.app.worker import Worker, in_thread
+from asperity.app.worker import Worker
 
 
 class Refreshes(Protocol):
@@ -42,10 +40,8 @@ class OpenPart:
 
     async def _taken(self, files: list[tuple[str, bytes]]) -> None:
         self._say("")
-        try:
-            take = await in_thread(lambda: self._state.open_scene(files))
-        except Error as error:
-            self._say(in_one_line(self._state.said(error)))
+        take = await self._worker.attempt(lambda: self._state.open_scene(files), self._say)
+        if take is None:
             return
         take()
         for part in self._parts:

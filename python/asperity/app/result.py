@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Callable, Sequence
+from functools import partial
 from html import escape
 from typing import Any
 
@@ -210,12 +211,11 @@ class ResultPart(Shows):
         found, velocity = self._worker.found, self._at
         if found is None or velocity is None or not self._origin.value:
             return
-        try:
-            scene = found.scene
-            q, density = await in_thread(lambda: contributions(scene, velocity))
-        except Error as error:
-            self._problem.set_text(in_one_line(self._state.said(error)))
+        shares = partial(contributions, found.scene, velocity)
+        made = await self._worker.attempt(shares, self._problem.set_text)
+        if made is None:
             return
+        q, density = made
         name = f"Contributions to the hysteresis by wavenumber at {velocity:.3g} m/s"
         redraw(self._shares, contributions_chart(q, np.ravel(density)), name)
 
@@ -256,31 +256,21 @@ class ResultPart(Shows):
     # --- downloads ---
 
     def _downloads(self) -> None:
-        with (
-            ui.element("div")
-            .classes("flex gap-2 py-2")
-            .props('role="group" aria-label="Downloads"')
-        ):
-            for label, name, make in (
-                ("Scene", "scene.zip", lambda f, _: downloads.scene_archive(self._state)),
-                (
-                    "CSV",
-                    "friction.csv",
-                    lambda f, _: lambda: downloads.table_csv(f.scene, f.curves),
-                ),
-                ("Picture", "friction.svg", lambda f, _: self._picture(f)),
-                ("Report", "report.html", lambda f, tell: downloads.report_of(self._state, tell)),
-                (
-                    "Map",
-                    "friction.fmap",
-                    lambda f, tell: lambda: downloads.map_of(f.scene, tell).to_bytes(),
-                ),
-                (
-                    "FMU",
-                    "friction.fmu",
-                    lambda f, tell: lambda: downloads.fmu_of(downloads.map_of(f.scene, tell)),
-                ),
-            ):
+        state, give = self._state, downloads
+        makes: dict[str, tuple[str, Callable[[Any, downloads.Tell], downloads.Make]]] = {
+            "Scene": ("scene.zip", lambda f, _: give.scene_archive(state)),
+            "CSV": ("friction.csv", lambda f, _: lambda: give.table_csv(f.scene, f.curves)),
+            "Picture": ("friction.svg", lambda f, _: self._picture(f)),
+            "Report": ("report.html", lambda f, tell: give.report_of(state, tell)),
+            "Map": ("friction.fmap", lambda f, tell: lambda: give.map_of(f.scene, tell).to_bytes()),
+            "FMU": (
+                "friction.fmu",
+                lambda f, tell: lambda: give.fmu_of(give.map_of(f.scene, tell)),
+            ),
+        }
+        with ui.element("div").classes("flex gap-2 py-2") as group:
+            group.props('role="group" aria-label="Downloads"')
+            for label, (name, make) in makes.items():
                 self._download(label, name, make)
 
     def _picture(self, found: Found) -> downloads.Make:
@@ -305,12 +295,10 @@ class ResultPart(Shows):
                 loop.call_soon_threadsafe(self._status.set_text, f"{label} is made: {line}")
 
             try:
-                content = await in_thread(make(found, tell))
-            except Error as error:
-                self._problem.set_text(in_one_line(self._state.said(error)))
-            else:
-                ui.download.content(content, name)
-                self._status.set_text(f"{name} is downloaded")
+                content = await self._worker.attempt(make(found, tell), self._problem.set_text)
+                if content is not None:
+                    ui.download.content(content, name)
+                    self._status.set_text(f"{name} is downloaded")
             finally:
                 button.props(remove="loading")
 

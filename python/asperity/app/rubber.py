@@ -1,17 +1,16 @@
 """The part of the rubber: the shipped surrogate, or sweeps whose columns are named by menus."""
 
+from functools import partial
 from typing import Any
 
 from nicegui import ui
 
-from asperity._core import Error, InvalidInput
 from asperity.app.charts import rubber_chart, shifts_chart
 from asperity.app.guess import QUANTITIES, UNITS
 from asperity.app.parts import chart, part, redraw
 from asperity.app.state import State
 from asperity.app.upload import Upload
-from asperity.app.words import in_one_line
-from asperity.app.worker import Shows, Worker, in_thread
+from asperity.app.worker import Shows, Worker
 from asperity.base.quantities import temperature_text
 from asperity.scene.model import Scene
 
@@ -38,13 +37,9 @@ class RubberPart(Shows):
         self._state, self._worker = state, worker
         self._drawn: object = None
         with part("Rubber", "rubber-title"):
-            self._choice = (
-                ui.select(
-                    list(state.rubbers), value=state.rubber, label="Rubber", on_change=self._chosen
-                )
-                .props("dense outlined")
-                .classes("w-full")
-            )
+            how: Any = {"value": state.rubber, "label": "Rubber", "on_change": self._chosen}
+            self._choice = ui.select(list(state.rubbers), **how)
+            self._choice.props("dense outlined").classes("w-full")
             Upload(_DROP, self._taken, self._say, multiple=True)
             self._menus = ui.element("div").classes("w-full")
             self._problem = ui.label("").classes("problem").props('role="alert"')
@@ -62,12 +57,10 @@ class RubberPart(Shows):
     async def _taken(self, files: list[tuple[str, bytes]]) -> None:
         kept = []
         for name, content in files:
-            try:
-                one = await in_thread(lambda n=name, c=content: self._state.keep_dma(n, c))  # type: ignore[misc]
-                kept.append(one)
-            except Error as error:
-                self._say(in_one_line(self._state.said(error)))
-                for useless in kept:
+            keep = partial(self._state.keep_dma, name, content)
+            kept.append(await self._worker.attempt(keep, self._say))
+            if kept[-1] is None:
+                for useless in kept[:-1]:
                     self._state.folder.forget(useless)
                 return
         self._ask(kept)
@@ -101,28 +94,21 @@ class RubberPart(Shows):
             beyond = ui.checkbox("Go on beyond what was measured").classes("mr-3")
 
             async def take() -> None:
-                await self._use(
-                    files,
-                    {
-                        "columns": {name: menu.value or None for name, menu in chosen.items()},
-                        "units": {name: menu.value for name, menu in units.items()},
-                        "modulus": modulus.value,
-                        "prony": prony.value,
-                        "beyond": beyond.value,
-                    },
-                )
+                columns = {name: menu.value or None for name, menu in chosen.items()}
+                said = {"units": {name: menu.value for name, menu in units.items()}}
+                said |= {"modulus": modulus.value, "prony": prony.value, "beyond": beyond.value}
+                await self._use(files, {"columns": columns, **said})
 
             ui.button("Make the master curve", on_click=take).props('no-caps color="blue-9"')
 
     async def _use(self, files: list[str], settings: dict[str, Any]) -> None:
-        try:
-            for name, column in settings["columns"].items():
-                if column is None and name != "temperature":
-                    raise InvalidInput(f"which column is the {name}? None is chosen")
-            self._say("making the master curve ...")
-            take = await in_thread(lambda: self._state.use_dma(files, settings))
-        except Error as error:
-            self._say(in_one_line(self._state.said(error)))
+        for name, column in settings["columns"].items():
+            if column is None and name != "temperature":
+                self._say(f"which column is the {name}? None is chosen")
+                return
+        self._say("making the master curve ...")
+        take = await self._worker.attempt(lambda: self._state.use_dma(files, settings), self._say)
+        if take is None:
             return
         self._say("")
         self._left.set_text(take())

@@ -169,11 +169,12 @@ class State:
         for table in self.used:
             setattr(self, table, tables[table])
 
-    def keep_scan(self, shown: str, content: bytes) -> None:
+    def keep_scan(self, shown: str, content: bytes) -> str:
         """Keep a scan, which is to be read with its pixel size and unit, if it states none."""
         if self.scan is not None and self.scan not in self._named:
             self.folder.forget(self.scan)
         self.scan = self.folder.keep(shown, content)
+        return self.scan
 
     def use_scan(self, settings: Mapping[str, Any]) -> Take:
         """Read the scan that was kept, to be the surface. What cannot be read is refused."""

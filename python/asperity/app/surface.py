@@ -2,17 +2,16 @@
 
 import base64
 import io
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 import numpy as np
 from nicegui import background_tasks, ui
 
-from asperity._core import Error
 from asperity.app.charts import spectrum_chart
 from asperity.app.parts import Changed, Quantity, chart, controls, part, redraw
 from asperity.app.state import State
 from asperity.app.upload import Upload
-from asperity.app.words import in_one_line
 from asperity.app.worker import Shows, Worker, in_thread
 from asperity.base.arguments import brief
 from asperity.scene.model import Scene
@@ -22,6 +21,11 @@ from asperity.surface import HeightMap
 
 _UNITS = {"": "as the file says", "m": "m", "mm": "mm", "um": "µm", "nm": "nm"}
 _DETREND = {"plane": "tilted", "quadratic": "curved", "offset": "neither"}
+_ENDS = (
+    ("q0_per_m", "q0 [1/m], where the spectrum begins", "as the scan is long"),
+    ("q1_per_m", "q1 [1/m], where it ends", "at pi / pixel"),
+    ("slope_cutoff", "rms slope at which it ends", "no such end"),
+)
 _MOST_PIXELS = 360  # of a side of the picture
 
 
@@ -32,16 +36,9 @@ class SurfacePart(Shows):
         self._state, self._worker = state, worker
         self._drawn: object = None
         with part("Surface", "surface-title"):
-            self._choice = (
-                ui.select(
-                    list(state.surfaces),
-                    value=state.surface,
-                    label="Surface",
-                    on_change=self._chosen,
-                )
-                .props("dense outlined")
-                .classes("w-full")
-            )
+            how: Any = {"value": state.surface, "label": "Surface", "on_change": self._chosen}
+            self._choice = ui.select(list(state.surfaces), **how)
+            self._choice.props("dense outlined").classes("w-full")
             self._scan_fields()
             with ui.element("div").classes("w-full") as self._law:
                 self._law_fields()
@@ -57,25 +54,47 @@ class SurfacePart(Shows):
         self._upload = Upload("Drop a scan here, or choose a file", self._taken, self._say)
         self._settings: dict[str, Any] = {}  # what is not in here is as in the shell
         with ui.expansion("How the scan is read").classes("w-full").props("dense"):
-            field = "dense outlined debounce=500"
-            ui.input("Pixel size [µm]: one number, or dy, dx", on_change=self._pixel).props(
-                f'{field} hint="empty where the file states it"'
-            ).classes("w-full")
-            ui.select(_UNITS, value="", label="Unit of the heights", on_change=self._unit).props(
-                "dense outlined"
-            ).classes("w-full")
-            tilted = SURFACE["detrend"].default
-            ui.select(_DETREND, value=tilted, label="The scan is", on_change=self._detrend).props(
-                "dense outlined"
-            ).classes("w-full")
-            self._end("q0_per_m", "q0 [1/m], where the spectrum begins", "as the scan is long")
-            self._end("q1_per_m", "q1 [1/m], where it ends", "at pi / pixel")
-            self._end("slope_cutoff", "rms slope at which it ends", "no such end")
-            ui.input("Most drop-outs [%]", on_change=self._dropouts).props(
-                f'{field} hint="of the points: 10 where it is empty"'
-            ).classes("w-full")
-            ui.checkbox("Take the self-affine fit instead of the rings", on_change=self._fit)
-            ui.checkbox("Keep the directions of its roughness", on_change=self._directional)
+            micrometres = "Pixel size [µm]: one number, or dy, dx"
+            self._field("pixel_size_m", micrometres, "empty where the file states it", _pixel_size)
+            self._menu("unit", "Unit of the heights", _UNITS, "")
+            self._menu("detrend", "The scan is", _DETREND, SURFACE["detrend"].default)
+            for key, label, empty in _ENDS:
+                self._field(key, label, f"empty: {empty}", float)
+            share = "of the points: 10 where it is empty"
+            self._field("max_dropouts", "Most drop-outs [%]", share, _share)
+            self._switch("fit", "Take the self-affine fit instead of the rings", "self-affine")
+            self._switch("directional", "Keep the directions of its roughness", True)
+
+    def _field(self, key: str, label: str, hint: str, read: Callable[[str], Any]) -> None:
+        """A field for a number of the scan, which is as `hint` says where it is empty."""
+
+        async def changed(event: Any) -> None:
+            text = str(event.value or "").strip()
+            try:
+                self._settings[key] = read(text) if text else None
+            except ValueError:
+                self._say(f"{label} {brief(event.value)}: must be a number")
+                return
+            await self._use()
+
+        shown = ui.input(label, on_change=changed).classes("w-full")
+        shown.props(f'dense outlined debounce=500 hint="{hint}"')
+
+    def _menu(self, key: str, label: str, options: dict[str, str], value: str) -> None:
+        menu = ui.select(options, value=value, label=label, on_change=self._takes(key))
+        menu.props("dense outlined").classes("w-full")
+
+    def _switch(self, key: str, label: str, value: Any) -> None:
+        ui.checkbox(label, on_change=self._takes(key, value))
+
+    def _takes(self, key: str, value: Any = None) -> Callable[[Any], Awaitable[None]]:
+        """What is called with a choice, for which `value` stands where it is given."""
+
+        async def changed(event: Any) -> None:
+            self._settings[key] = event.value if value is None else value if event.value else None
+            await self._use()
+
+        return changed
 
     def _law_fields(self) -> None:
         law = self._state.surfaces["law"]
@@ -99,12 +118,8 @@ class SurfacePart(Shows):
 
     async def _taken(self, files: list[tuple[str, bytes]]) -> None:
         name, content = files[-1]
-        try:
-            await in_thread(lambda: self._state.keep_scan(name, content))
-        except Error as error:
-            self._say(in_one_line(self._state.said(error)))
-            return
-        await self._read()
+        if await self._worker.attempt(lambda: self._state.keep_scan(name, content), self._say):
+            await self._read()
 
     async def _use(self) -> None:
         """Read it again where a field has changed."""
@@ -117,66 +132,13 @@ class SurfacePart(Shows):
             return
         given = {key: value for key, value in self._settings.items() if value not in ("", None)}
         self._say("reading the scan ...")
-        try:
-            take = await in_thread(lambda: self._state.use_scan(given))
-        except Error as error:
-            self._say(in_one_line(self._state.said(error)))
+        take = await self._worker.attempt(lambda: self._state.use_scan(given), self._say)
+        if take is None:
             return
         take()
         self._say("")
         self.refresh()
         await self._worker.changed()
-
-    async def _pixel(self, event: Any) -> None:
-        try:
-            sizes = [float(one) * 1e-6 for one in str(event.value).split(",") if one.strip()]
-        except ValueError:
-            self._say(f"pixel size {brief(event.value)}: must be a number, or two: dy, dx")
-            return
-        sizes = [float(f"{one:.12g}") for one in sizes]
-        self._settings["pixel_size_m"] = (
-            None if not sizes else sizes[0] if len(sizes) == 1 else sizes
-        )
-        await self._use()
-
-    async def _unit(self, event: Any) -> None:
-        self._settings["unit"] = event.value
-        await self._use()
-
-    async def _detrend(self, event: Any) -> None:
-        self._settings["detrend"] = event.value
-        await self._use()
-
-    def _end(self, key: str, label: str, empty: str) -> None:
-        """A field for an end of the spectrum, which is as `empty` says where it is empty."""
-
-        async def changed(event: Any) -> None:
-            try:
-                self._settings[key] = float(event.value) if event.value else None
-            except ValueError:
-                self._say(f"{label} {brief(event.value)}: must be a number")
-                return
-            await self._use()
-
-        shown = ui.input(label, on_change=changed).classes("w-full")
-        shown.props(f'dense outlined debounce=500 hint="empty: {empty}"')
-
-    async def _dropouts(self, event: Any) -> None:
-        try:
-            share = float(str(event.value).replace(",", ".")) / 100 if event.value else None
-        except ValueError:
-            self._say(f"drop-outs {brief(event.value)}: must be a number")
-            return
-        self._settings["max_dropouts"] = None if share is None else float(f"{share:.6g}")
-        await self._use()
-
-    async def _fit(self, event: Any) -> None:
-        self._settings["fit"] = "self-affine" if event.value else None
-        await self._use()
-
-    async def _directional(self, event: Any) -> None:
-        self._settings["directional"] = True if event.value else None
-        await self._use()
 
     def _see(self) -> None:
         self._law.set_visibility(self._state.surface == "law")
@@ -213,6 +175,15 @@ class SurfacePart(Shows):
             self._map.set_source(picture)
             self._map.props(f'alt="Map of the heights; {facts}"')
             self._map_facts.set_text(facts)
+
+
+def _pixel_size(micrometres: str) -> float | list[float]:
+    sizes = [float(f"{float(one) * 1e-6:.12g}") for one in micrometres.split(",") if one.strip()]
+    return sizes[0] if len(sizes) == 1 else sizes
+
+
+def _share(percent: str) -> float:
+    return float(f"{float(percent.replace(',', '.')) / 100:.6g}")
 
 
 def _lay_text(scene: Scene) -> str:

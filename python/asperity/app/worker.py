@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from asperity._core import Error
 from asperity.app.opened import Tables
 from asperity.app.state import State
+from asperity.app.words import in_one_line
 from asperity.friction import friction
 from asperity.scene.mapped import rubber_of_map
 from asperity.scene.model import Progress, Scene, SceneFriction
@@ -137,6 +138,14 @@ class Worker:
             except Error as error:
                 if self._wanted == mine:
                     self._fail(error)
+
+    async def attempt(self, compute: Callable[[], _Made], say: Callable[[str], object]) -> Any:
+        """What is computed in a thread; None where it fails, of which `say` is given the error."""
+        try:
+            return await in_thread(compute)
+        except Error as error:
+            say(in_one_line(self.state.said(error)))
+            return None
 
     def _show(self, mine: int, result: Found) -> None:
         if self._wanted != mine:

@@ -70,7 +70,8 @@ class FrictionSlopes(Table):
 
 
 def _look_up(name: str, told: str) -> Callable[..., Any]:
-    """Return the method of a map that gives one of the core's look-ups."""
+    """Return the method of a map that gives one of the core's look-ups [-] or, as derivatives,
+    `FrictionSlopes`."""
 
     def look_up(
         self: "FrictionMap",
@@ -84,9 +85,19 @@ def _look_up(name: str, told: str) -> Callable[..., Any]:
         shift_adhesion: bool = False,
         outside: Outside = "error",
     ) -> Any:
-        given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
-        more = {"temperature": temperature, "distance": distance, "direction": direction}
-        return self._query(name, given | more, shift_adhesion, outside)
+        if name == "mu":
+            plain = type(pressure) is type(velocity) is type(a_T) is float and a_T == 1.0
+            plain = plain and temperature is distance is direction is None
+            if plain and shift_adhesion is False and type(outside) is str and outside in POLICIES:
+                mu: float = self._core.mu_at(pressure, velocity)
+                if mu == mu:  # what is outside takes the long way round
+                    return mu
+        given: dict[str, Any] = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
+        given |= {"temperature": temperature, "distance": distance, "direction": direction}
+        if name == "derivatives":
+            by_p, by_v = self._query("slopes", given, shift_adhesion, outside)
+            return FrictionSlopes(dmu_dlnp=by_p, dmu_dlnv=by_v)
+        return self._query(name, given, shift_adhesion, outside)
 
     look_up.__name__ = name
     look_up.__qualname__ = f"FrictionMap.{name}"
@@ -250,29 +261,7 @@ class FrictionMap(Table):
         end = len(self.content) - 8 - -(-text // 8) * 8
         return FrictionMap(content=self.content[end - size : end])
 
-    def mu(
-        self,
-        pressure: ArrayLike,
-        velocity: ArrayLike,
-        *,
-        a_T: ArrayLike = 1.0,  # noqa: N803  # the field's symbol
-        temperature: ArrayLike | None = None,
-        distance: ArrayLike | None = None,
-        direction: ArrayLike | None = None,
-        shift_adhesion: bool = False,
-        outside: Outside = "error",
-    ) -> Any:
-        """Return the friction coefficient, hysteresis + adhesion [-]."""
-        plain = type(pressure) is type(velocity) is type(a_T) is float and a_T == 1.0
-        plain = plain and temperature is distance is direction is None
-        if plain and shift_adhesion is False and type(outside) is str and outside in POLICIES:
-            mu: float = self._core.mu_at(pressure, velocity)
-            if mu == mu:  # what is outside takes the long way round
-                return mu
-        given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
-        more = {"temperature": temperature, "distance": distance, "direction": direction}
-        return self._query("mu", given | more, shift_adhesion, outside)
-
+    mu = _look_up("mu", "Return the friction coefficient, hysteresis + adhesion [-].")
     hysteresis = _look_up("hysteresis", "Return mu_H (Eq. 22) [-].")
     adhesion = _look_up("adhesion", "Return mu_A (Eq. 23) [-].")
     contact_area = _look_up("contact_area", "Return A/A0 at q1 [-].")
@@ -293,23 +282,9 @@ class FrictionMap(Table):
         """,
     )
 
-    def derivatives(
-        self,
-        pressure: ArrayLike,
-        velocity: ArrayLike,
-        *,
-        a_T: ArrayLike = 1.0,  # noqa: N803
-        temperature: ArrayLike | None = None,
-        distance: ArrayLike | None = None,
-        direction: ArrayLike | None = None,
-        shift_adhesion: bool = False,
-        outside: Outside = "error",
-    ) -> FrictionSlopes:
-        """Return d mu / d ln p and d mu / d ln |v|, those of the stored polynomials."""
-        given = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
-        more = {"temperature": temperature, "distance": distance, "direction": direction}
-        by_p, by_v = self._query("slopes", given | more, shift_adhesion, outside)
-        return FrictionSlopes(dmu_dlnp=by_p, dmu_dlnv=by_v)
+    derivatives = _look_up(
+        "derivatives", "Return d mu / d ln p and d mu / d ln |v|, those of the stored polynomials."
+    )
 
     def sliding_length(
         self,
