@@ -53,9 +53,7 @@ class SpectralDensity(Table):
         shown = np.ma.masked_less_equal(self.density, 0)
         norm = LogNorm() if shown.count() else None  # no logarithm of a plane's zeros
         image = axes.pcolormesh(self.wavenumber_x, self.wavenumber_y, shown, norm=norm)
-        axes.set_aspect("equal")
-        axes.set_xlabel("$q_x$ [1/m]")
-        axes.set_ylabel("$q_y$ [1/m]")
+        axes.set(aspect="equal", xlabel="$q_x$ [1/m]", ylabel="$q_y$ [1/m]")
         axes.figure.colorbar(image, ax=axes, label="Roughness spectrum $C$ [m$^4$]")
 
 
@@ -127,8 +125,7 @@ class Anisotropy(Table):
         axes.axvline(np.degrees(self.direction), color="0.4", linestyle="--", label="lay")
         axes.set_xlim(-90, 90)
         axes.set_ylim(0, 1.1 * self.across or None)
-        axes.set_xlabel("Direction from $x$ towards $y$ [°]")
-        axes.set_ylabel("Rms slope [-]")
+        axes.set(xlabel="Direction from $x$ towards $y$ [°]", ylabel="Rms slope [-]")
         axes.legend(fontsize="small")
 
 

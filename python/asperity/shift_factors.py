@@ -298,8 +298,7 @@ class ShiftFactors(HasShiftFactors):
         bars = None if deviation is None else 2 * deviation
         label = None if bars is None else "± 2 standard deviations"
         axes.errorbar(self.temperature, self.log10_a_T, bars, fmt="o-", capsize=3, label=label)
-        axes.set_xlabel("Temperature $T$ [K]")
-        axes.set_ylabel("$\\log_{10} a_T$ [-]")
+        axes.set(xlabel="Temperature $T$ [K]", ylabel="$\\log_{10} a_T$ [-]")
         if label:
             axes.legend()
 

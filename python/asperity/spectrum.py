@@ -202,8 +202,7 @@ class SelfAffineSpectrum(_Spectrum, CoreValue):
     def _draw(self, axes: Any) -> None:
         columns = self._columns()
         axes.loglog(columns.coordinates["wavenumber"].values, columns.variables["density"].values)
-        axes.set_xlabel("Wavenumber $q$ [1/m]")
-        axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
+        axes.set(xlabel="Wavenumber $q$ [1/m]", ylabel="Roughness spectrum $C(q)$ [m$^4$]")
 
 
 @value

@@ -114,8 +114,7 @@ class Rows(Table):
         axes.set_xscale("log")
         if shown.any():
             axes.set_yscale("log")
-        axes.set_xlabel("Wavenumber $q$ [1/m]")
-        axes.set_ylabel(f"{self._label} [m$^{self._unit[-1]}$]")
+        axes.set(xlabel="Wavenumber $q$ [1/m]", ylabel=f"{self._label} [m$^{self._unit[-1]}$]")
         if len(axes.get_legend_handles_labels()[1]) > 1:
             axes.legend(fontsize="small")
 

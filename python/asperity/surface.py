@@ -339,8 +339,7 @@ class LineScan(_Surface):
         length, length_unit = metric_unit(float(x[-1]))
         height, height_unit = metric_unit(float(np.nanmax(np.abs(self.heights))))
         axes.plot(x / length, self.heights / height, linewidth=0.7)
-        axes.set_xlabel(f"$x$ [{length_unit}]")
-        axes.set_ylabel(f"height [{height_unit}]")
+        axes.set(xlabel=f"$x$ [{length_unit}]", ylabel=f"height [{height_unit}]")
 
 
 def draw_map(
@@ -356,8 +355,7 @@ def draw_map(
     length, unit = metric_unit(max(ny * dy, nx * dx))
     extent = (0, nx * dx / length, ny * dy / length, 0)
     image = axes.imshow(shown, extent=extent, cmap="cividis", interpolation="nearest", **limits)
-    axes.set_xlabel(f"$x$ [{unit}]")
-    axes.set_ylabel(f"$y$ [{unit}]")
+    axes.set(xlabel=f"$x$ [{unit}]", ylabel=f"$y$ [{unit}]")
     axes.figure.colorbar(image, ax=axes, label=label, shrink=0.85)
 
 

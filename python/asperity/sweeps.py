@@ -50,8 +50,7 @@ def draw_moduli(
     """Draw E' and E'' with logarithmic scales."""
     axes.loglog(x, storage, styles[0], color="C0", markersize=3, label="$E$′")
     axes.loglog(x, loss, styles[1], color="C1", markersize=3, label="$E$″")
-    axes.set_xlabel(label)
-    axes.set_ylabel("Modulus [Pa]")
+    axes.set(xlabel=label, ylabel="Modulus [Pa]")
     axes.legend()
 
 
@@ -248,8 +247,7 @@ class StrainFactors(Table):
     def _draw(self, axes: Any) -> None:
         axes.semilogx(self.strain, self.storage, "o-", color="C0", markersize=3, label="$E$′")
         axes.semilogx(self.strain, self.loss, "^:", color="C1", markersize=3, label="$E$″")
-        axes.set_xlabel("Strain amplitude [-]")
-        axes.set_ylabel("Over that of small strain")
+        axes.set(xlabel="Strain amplitude [-]", ylabel="Over that of small strain")
         axes.legend()
 
 

@@ -4,8 +4,8 @@ The core checks ranges. What is checked here is the kind: a number, an array, a 
 """
 
 import os
-from collections.abc import Callable, Iterable, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager, suppress
 from decimal import Decimal
 from numbers import Real
 from pathlib import Path
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, Note, must_be, refusal
+from asperity.base.diagnostics import Argument, File, Note, must_be, refusal
 from asperity.base.diagnostics import brief as brief
 
 Array = NDArray[np.float64]
@@ -49,6 +49,18 @@ class FilePath(_Path):
     def __format__(self, form: str) -> str:
         name = shortened(str(self))
         return format(name if name.isprintable() else repr(name), form)
+
+
+@contextmanager
+def reading(what: object) -> Iterator[None]:
+    """Let a failure name what is read, a file say, and why it cannot be."""
+    try:
+        yield
+    except OSError as error:
+        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=what) from error
+    except InvalidInput as error:
+        named = any(isinstance(phrase, File) for phrase in error.where)
+        raise (error if named else error.within(what)) from error
 
 
 def shortened(text: str, most: int = 400) -> str:

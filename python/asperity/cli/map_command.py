@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base import quantities
-from asperity.base.arguments import FilePath
+from asperity.base.arguments import FilePath, reading
 from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
 from asperity.cli.options import typed_options
@@ -161,10 +161,8 @@ def _errors(
 
 def read_map(path: Path) -> FrictionMap:
     """The map of a file, or one line that says why there is none."""
-    try:
+    with reading(path):
         return FrictionMap.load(path)
-    except OSError as error:
-        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
 
 
 def _tell(args: Namespace, made: FrictionMap) -> None:

@@ -4,6 +4,7 @@ import argparse
 import math
 import sys
 from argparse import ArgumentTypeError
+from collections.abc import Callable
 from typing import Any, NoReturn
 
 from asperity._core import __version__
@@ -83,18 +84,9 @@ def number(text: str) -> float:
     return number
 
 
-def pixel_size(text: str) -> float | tuple[float, float]:
+def pixel_size(text: str) -> Any:
     """One number [m], or DY,DX."""
-    try:
-        sizes = [number(size) for size in text.split(",")]
-        if len(sizes) == 1:
-            return sizes[0]
-        dy, dx = sizes
-    except (ArgumentTypeError, ValueError):
-        raise ArgumentTypeError(
-            f"{brief(text)}: must be a positive number [m], or two: DY,DX"
-        ) from None
-    return dy, dx
+    return _one_or_two(text, number, "a positive number [m], or two: DY,DX")
 
 
 def sides(text: str) -> tuple[float, float]:
@@ -129,16 +121,19 @@ def share(text: str) -> float:
         raise ArgumentTypeError(f"{brief(text)}: must be a number, 0 or more") from None
 
 
-def tile(text: str) -> int | tuple[int, int]:
+def tile(text: str) -> Any:
     """N, or NY,NX."""
+    return _one_or_two(text, whole, "a whole number, or two: NY,NX")
+
+
+def _one_or_two(text: str, read: Callable[[str], Any], allowed: str) -> Any:
     try:
-        sizes = [whole(size) for size in text.split(",")]
-        if len(sizes) == 1:
-            return sizes[0]
-        ny, nx = sizes
-    except (ArgumentTypeError, ValueError):
-        raise ArgumentTypeError(f"{brief(text)}: must be a whole number, or two: NY,NX") from None
-    return ny, nx
+        sizes = tuple(read(size) for size in text.split(","))
+    except ArgumentTypeError:
+        sizes = ()
+    if len(sizes) not in (1, 2):
+        raise ArgumentTypeError(f"{brief(text)}: must be {allowed}")
+    return sizes[0] if len(sizes) == 1 else sizes
 
 
 def typed_options(args: argparse.Namespace) -> dict[str, Any]:

@@ -45,8 +45,7 @@ def draw_directions(
         return
     axes.axhline(0, color=grey(0.6), linewidth=0.8, zorder=0.5)
     axes.xaxis.set_major_locator(MultipleLocator(_TICKS))
-    axes.set_xlabel(DIRECTION)
-    axes.set_ylabel("Force over load [-]")
+    axes.set(xlabel=DIRECTION, ylabel="Force over load [-]")
 
 
 def _place_ticks(axes: Any, curves: Sequence[Any]) -> None:

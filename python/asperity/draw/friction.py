@@ -204,8 +204,7 @@ def label_abscissa(axes: "Axes", abscissa: str, *, celsius: bool) -> None:
     elif abscissa == DIRECTION:
         axes.set_xlabel(DIRECTION)
     else:
-        axes.set_xscale("log")
-        axes.set_xlabel(abscissa)
+        axes.set(xscale="log", xlabel=abscissa)
 
 
 def draw_result(axes: "Axes", result: Any, *, band: str = "") -> None:

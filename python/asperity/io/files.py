@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from asperity._core import Error, InvalidInput
-from asperity.base.arguments import FilePath
+from asperity.base.arguments import FilePath, reading
 
 _DEVICE = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG}  # no fault of the path's
 
@@ -64,14 +64,10 @@ def sha256(path: Path) -> str:
     """
     import hashlib  # here: `import asperity` is to be quick
 
-    try:
+    with reading(path):
         check_file(path)
         with path.open("rb") as content:
             return hashlib.file_digest(content, "sha256").hexdigest()
-    except OSError as error:
-        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
-    except InvalidInput as error:
-        raise error.within(path) from error
 
 
 def check_output(path: Path) -> None:

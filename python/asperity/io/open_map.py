@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import path_of
+from asperity.base.arguments import path_of, reading
 from asperity.base.diagnostics import must_be
 from asperity.base.table import imported
 from asperity.io import plausible
@@ -31,16 +31,12 @@ def open_map(
     Of a group `channel` counts the arrays of two axes by their names.
     """
     path = path_of(path, "path")
-    try:
+    with reading(path):
         known = None if unit is None else checked_unit(unit)
         array = _zarr(path, channel) if path.is_dir() else _npy(path, channel)
         metres, pixel = required(path, pixel_size, known)
         source = source_of(array, pixel, metres)
         plausible.check_scan(path, _sample(source), min(source.pixel_size), known or "m")
-    except OSError as error:
-        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
-    except InvalidInput as error:
-        raise (error if error.where else error.within(path)) from error
     return source
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import path_of
+from asperity.base.arguments import path_of, reading
 from asperity.base.diagnostics import Argument, must_be, refusal
 from asperity.io import plausible
 from asperity.io.archive import Archive, read_array
@@ -101,15 +101,10 @@ def read_surface(
         if conversion is not None:
             return conversion
     path = path_of(path, "path")
-    try:
-        if unit is not None:
-            unit = checked_unit(unit)
+    with reading(path):
+        unit = None if unit is None else checked_unit(unit)
         check_file(path)
         surface = _read(path, channel, pixel_size, unit)
-    except OSError as error:
-        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
-    except InvalidInput as error:
-        raise error.within(path) from error
     spacing = surface.pixel_size if isinstance(surface, HeightMap) else surface.spacing
     plausible.check_scan(path, surface.heights, spacing, unit or "m")
     return surface

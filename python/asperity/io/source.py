@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import quoted
+from asperity.base.arguments import quoted, reading
 from asperity.base.table import to_install
 from asperity.io.archive import Archive
 from asperity.io.files import check_file
@@ -65,15 +65,11 @@ def read_source(path: Path | Frame) -> Source:
     if isinstance(path, Frame):
         rows = [map(str, path.frame.columns), *path.frame.to_numpy(dtype=object)]
         return Source([(at, "\t".join(map(_cell, row))) for at, row in enumerate(rows)])
-    try:
+    sheets: list[tuple[int, str]] = []
+    with reading(path):
         check_file(path)
-        sheets: list[tuple[int, str]] = []
         numbered = enumerate(text_lines(path, sheets), start=1)
         kept = [(n, one) for n, one in numbered if one.strip() and not one.lstrip().startswith("#")]
-    except OSError as error:
-        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
-    except InvalidInput as error:
-        raise error.within(path) from error
     return Source(kept, tuple(sheets))
 
 

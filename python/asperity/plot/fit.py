@@ -37,8 +37,7 @@ def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> by
             told = _parameters(fit.adhesion)
         axes.set_title(f"{title}\n{told}", fontsize="small")
         axes.set_ylim(0, highest)
-        axes.set_xscale("log")
-        axes.set_xlabel("Sliding velocity $v$ [m/s]")
+        axes.set(xscale="log", xlabel="Sliding velocity $v$ [m/s]")
     panels[0].set_ylabel("Friction coefficient $\\mu$ [-]")
     entries: dict[str, Any] = {}  # of both panels, each once: points may be put aside in one alone
     for axes in panels:
@@ -74,14 +73,13 @@ def scene_fit_figure(fit: SceneFit, path: Path) -> bytes:
     first.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=interval)
     if fit.left_out is not None:
         first.plot([], [], "x", color=grey(0.3), ms=4.5, label="point left out of the fit")
-    first.set_xscale("log")
-    first.set_xlabel("Sliding velocity $v$ [m/s]")
-    first.set_ylabel("Friction coefficient $\\mu$ [-]")
+    first.set(
+        xscale="log", xlabel="Sliding velocity $v$ [m/s]", ylabel="Friction coefficient $\\mu$ [-]"
+    )
     first.set_ylim(0, 1.1 * max(float(fit.measured.max()), float(fit.mu.max())))
     sides = min(fit.measured.min(), fit.mu.min()), max(fit.measured.max(), fit.mu.max())
     second.plot(sides, sides, color=grey(0.5), linewidth=0.8, zorder=0)
-    second.set_xlabel("$\\mu$ as measured [-]")
-    second.set_ylabel("$\\mu$ of the scene [-]")
+    second.set(xlabel="$\\mu$ as measured [-]", ylabel="$\\mu$ of the scene [-]")
     second.set_title(
         f"rms off {100 * fit.rms_left_out:.2g} %; the same $\\mu$ everywhere "
         f"{100 * fit.rms_same_mu:.2g} %",

@@ -105,8 +105,7 @@ def _draw_profiles(axes: "Axes", scene: Scene) -> None:
     axes.xaxis.set_major_locator(LogLocator(subs=(1,) if decades > 2 else (1, 2, 5)))
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_ylim(bottom=0)
-    axes.set_xlabel("Wavenumber $q$ [1/m]")
-    axes.set_ylabel("Temperature rise $T(q) - T_0$ [K]")
+    axes.set(xlabel="Wavenumber $q$ [1/m]", ylabel="Temperature rise $T(q) - T_0$ [K]")
 
 
 def _files(scenes: Sequence[Scene]) -> list[str]:

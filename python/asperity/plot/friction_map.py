@@ -32,8 +32,7 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
     figure, (left, right) = new_figure(2)
     for axes in (left, right):  # before the levels are labelled, which need to know the scales
         _label(axes)
-        axes.set_xlim(made.velocity)
-        axes.set_ylim(made.pressure)
+        axes.set(xlim=made.velocity, ylim=made.pressure)
     lowest = None if made.temperature is None else made.temperature[0]
     mu = made.mu(pressure, velocity, temperature=lowest)
     ticks = MaxNLocator(8).tick_values(float(mu.min()), float(mu.max()))
@@ -72,7 +71,9 @@ def _inside(sides: tuple[float, float], count: int) -> NDArray[np.float64]:
 
 
 def _label(axes: "Axes") -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel("Sliding velocity $v$ [m/s]")
-    axes.set_ylabel("Nominal pressure $\\sigma_0$ [Pa]")
+    axes.set(
+        xscale="log",
+        yscale="log",
+        xlabel="Sliding velocity $v$ [m/s]",
+        ylabel="Nominal pressure $\\sigma_0$ [Pa]",
+    )

@@ -107,16 +107,17 @@ def draw_shifts(
         label = f"WLF, $c_1$ = {wlf.c1:.3g}, $c_2$ = {wlf.c2:.4g} K\n"
         label += f"residual {wlf.residual:.2g} decades"
         axes.plot(t - zero, -wlf.c1 * d / (wlf.c2 + d), color=palette()[_LOSS], label=label)
-    axes.set_xlabel(f"Temperature $T$ [{'°C' if celsius else 'K'}]")
-    axes.set_ylabel("$\\log_{10} a_T$ [-]")
+    axes.set(xlabel=f"Temperature $T$ [{'°C' if celsius else 'K'}]", ylabel="$\\log_{10} a_T$ [-]")
     legend(axes)
 
 
 def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) -> None:
     axes.axhline(0, color=grey(0.4), linewidth=0.8)
-    axes.set_xlabel("Reduced frequency $a_T\\, \\omega$ [rad/s]")
-    axes.set_ylabel("Measured / fit - 1 [%]")
-    axes.set_xscale("log")
+    axes.set(
+        xlabel="Reduced frequency $a_T\\, \\omega$ [rad/s]",
+        ylabel="Measured / fit - 1 [%]",
+        xscale="log",
+    )
     if prony is None:
         return
     points = build.points
@@ -135,8 +136,5 @@ def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None
 
 
 def _logarithmic(axes: "Axes", x: str, y: str) -> None:
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel(x)
-    axes.set_ylabel(y)
+    axes.set(xscale="log", yscale="log", xlabel=x, ylabel=y)
     legend(axes)

@@ -33,7 +33,7 @@ def surface_figure(scene: Scene, path: Path) -> bytes:
         detrend = None if values["detrend"] == "none" else values["detrend"]
         shown = flat(scan, detrend)
         if isinstance(shown, HeightMap):
-            draw_map(figure, panels[0], shown, scene.surface.lay)
+            draw_map(panels[0], shown, scene.surface.lay)
         else:
             draw_line(panels[0], shown)
         panels[0].set_title(without_trend(scan), fontsize="medium")
@@ -56,10 +56,12 @@ def _draw_used(
         label = "law beyond the fit" if fit is not None else "self-affine law"
         dashes = "--" if fit is not None else "-"
         axes.plot(q, spectrum.at(q), dashes, color=palette()[1], linewidth=1.2, label=label)
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_xlabel("Wavenumber $q$ [1/m]")
-        axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
+        axes.set(
+            xscale="log",
+            yscale="log",
+            xlabel="Wavenumber $q$ [1/m]",
+            ylabel="Roughness spectrum $C(q)$ [m$^4$]",
+        )
     used = f"used, rms slope {spectrum.rms_slope:.3g}"
     axes.axvspan(q0, q1, color=grey(0.4), alpha=0.1, linewidth=0, label=used)
     legend(axes)
@@ -85,8 +87,7 @@ def rubber_figure(scene: Scene, path: Path) -> bytes:
         label="$v q_0$ to $v q_1$",
     )
     axes.set_xlim(low, high)
-    axes.set_xlabel("Angular frequency $\\omega$ [rad/s]")
-    axes.set_ylabel("Modulus [Pa]")
+    axes.set(xlabel="Angular frequency $\\omega$ [rad/s]", ylabel="Modulus [Pa]")
     celsius = built.values.get("units", {}).get("temperature") == "C"
     if built.temperature is not None:
         at = temperature_text(built.temperature, celsius=celsius)

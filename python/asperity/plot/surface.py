@@ -12,13 +12,12 @@ from asperity.draw.style import grey, narrow, palette, paper
 from asperity.scene.scan import LAY, Lay, Scan, nyquist
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
-from asperity.surface import HeightMap, LineScan
+from asperity.surface import HeightMap, LineScan, metric_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_MOST_PIXELS = 1000  # of a side, in a picture: a larger map is thinned out
 _ABOVE = 10  # points between a panel and its title: the 0 of a map's corner stands there
 # inches: of a map, of the scales and the bar beside it, and of the panel of the spectrum
 _MAP_HEIGHT, _BESIDE_MAP, _SPECTRUM = 2.7, 1.7, 4.6
@@ -44,7 +43,7 @@ def spectrum_figure(
         (middle, flat, f"(b) {without_trend(raw)}"),
     ):
         if isinstance(scan, HeightMap):
-            draw_map(figure, axes, scan, lay)
+            draw_map(axes, scan, lay)
         else:
             draw_line(axes, scan)
         axes.set_title(title, fontsize="medium", pad=_ABOVE)
@@ -67,29 +66,13 @@ def _fit_to_maps(figure: "Figure", scan: HeightMap) -> None:
     figure.axes[0].get_gridspec().set_width_ratios([width, width, _SPECTRUM])  # type: ignore[union-attr]
 
 
-def draw_map(figure: "Figure", axes: "Axes", scan: HeightMap, lay: Lay | None = None) -> None:
+def draw_map(axes: "Axes", scan: HeightMap, lay: Lay | None = None) -> None:
     """The heights, and the direction of the ridges where there is one."""
-    ny, nx = scan.heights.shape
-    step = -(-max(ny, nx) // (_MOST_PIXELS // 2 if narrow() else _MOST_PIXELS))
-    shown = np.asarray(scan.heights[::step, ::step], dtype=float)
-    size = np.array([ny * scan.pixel_size[0], nx * scan.pixel_size[1]])
-    length, length_unit = _unit(float(size.max()))
-    height, height_unit = _unit(float(np.nanmax(np.abs(shown))))
-    low, high = np.nanpercentile(shown / height, [0.2, 99.8])
+    scan.plot(axes)
     axes.set_facecolor(grey(0.6))  # drop-outs
-    image = axes.imshow(
-        shown / height,
-        extent=(0, size[1] / length, size[0] / length, 0),
-        cmap="cividis",
-        vmin=float(low),
-        vmax=float(high),
-        interpolation="nearest",
-    )
-    axes.set_xlabel(f"$x$ [{length_unit}]")
-    axes.set_ylabel(f"$y$ [{length_unit}]")
-    figure.colorbar(image, ax=axes, label=f"height [{height_unit}]", shrink=0.85)
     if lay is not None and lay.ratio > LAY:
-        _draw_lay(axes, lay, size / length)
+        size = np.multiply(scan.heights.shape, scan.pixel_size)
+        _draw_lay(axes, lay, size / metric_unit(float(size.max()))[0])
 
 
 def _draw_lay(axes: "Axes", lay: Lay, size: NDArray[np.float64]) -> None:
@@ -110,13 +93,9 @@ def _draw_lay(axes: "Axes", lay: Lay, size: NDArray[np.float64]) -> None:
 
 
 def draw_line(axes: "Axes", scan: LineScan) -> None:
-    x = np.arange(scan.heights.size) * scan.spacing
-    length, length_unit = _unit(float(x[-1]))
-    height, height_unit = _unit(float(np.nanmax(np.abs(scan.heights))))
-    axes.plot(x / length, scan.heights / height, color=palette()[0], linewidth=0.7)
-    axes.set_xlim(0, float(x[-1]) / length)
-    axes.set_xlabel(f"$x$ [{length_unit}]")
-    axes.set_ylabel(f"height [{height_unit}]")
+    scan.plot(axes)
+    axes.lines[0].set_color(palette()[0])
+    axes.margins(x=0)
 
 
 def draw_spectrum(
@@ -129,15 +108,10 @@ def draw_spectrum(
     floor: float | None = None,
 ) -> None:
     """C(q); `end` is pi / pixel of its scan."""
-    q, density, good = spectrum.wavenumber, spectrum.density, spectrum.reliable
-    shown = density > 0
-    _draw_band(axes, spectrum)
-    for rows, colour, label in (
-        (good & shown, palette()[0], "measured"),
-        (~good & shown, grey(0.65), "flagged: do not trust"),
-    ):
-        if rows.any():
-            axes.plot(q[rows], density[rows], ".", markersize=3, color=colour, label=label)
+    axes.set_prop_cycle(color=palette())
+    spectrum.plot(axes)
+    if (drawn := axes.get_legend()) is not None:
+        drawn.remove()  # that of a figure stands above its panel
     if fit is not None:
         fitted = np.geomspace(fit.q0, fit.q1, 200)
         label = f"fit, $H$ = {fit.hurst:.3f} ± {fit.standard_errors['hurst']:.3f}"
@@ -150,42 +124,7 @@ def draw_spectrum(
         axes.axvline(end / 2, color=grey(0.4), linestyle=":", label="half of π / pixel; π / pixel")
         axes.axvline(end, color=grey(0.4), linestyle=":")
     if floor is not None:
-        end_of_rows, colour = float(q[-1]), palette()[1]
-        label = "flat: noise, no surface"
-        axes.axvspan(floor, end_of_rows, color=colour, alpha=0.15, linewidth=0, label=label)
-    axes.set_xscale("log")
-    if shown.any():
-        axes.set_yscale("log")
-    axes.set_xlabel("Wavenumber $q$ [1/m]")
-    axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
-    how: dict[str, Any] = {}
-    if end is not None:
-        slope = f"rms slope {spectrum.rms_slope:.3g} up to π / pixel"
-        how = {"title": slope}
-    legend(axes, **how)
-
-
-def _draw_band(axes: "Axes", spectrum: TabulatedSpectrum) -> None:
-    """One standard error to either side, where it is less than the density."""
-    if spectrum.standard_error is None:
-        return
-    q, density, error = spectrum.wavenumber, spectrum.density, spectrum.standard_error
-    lower: NDArray[np.float64] = np.maximum(density - error, density / 10)
-    where = density > 0
-    axes.fill_between(
-        q[where],
-        lower[where],
-        (density + error)[where],
-        color=palette()[0],
-        alpha=0.2,
-        linewidth=0,
-        label="± standard error",
-    )
-
-
-def _unit(size: float) -> tuple[float, str]:
-    """The metric unit in which a length is a number from 1 to 1000."""
-    for factor, name in ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm")):
-        if size >= factor:
-            return factor, name
-    return 1e-9, "nm"
+        look: Any = {"color": palette()[1], "alpha": 0.15, "linewidth": 0}
+        axes.axvspan(floor, float(spectrum.wavenumber[-1]), label="flat: noise, no surface", **look)
+    title = f"rms slope {spectrum.rms_slope:.3g} up to π / pixel"
+    legend(axes, **({} if end is None else {"title": title}))

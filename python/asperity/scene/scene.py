@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
-from asperity.base.arguments import path_of
+from asperity.base.arguments import path_of, reading
 from asperity.base.diagnostics import valued
 from asperity.correction import Correction
 from asperity.io import plausible
@@ -255,13 +254,9 @@ def _is_pattern(path: Path, name: object) -> bool:
 
 def read_toml(path: Path) -> dict[str, Any]:
     """Tables of a TOML file, whatever they are."""
-    try:
+    with reading(path):
         check_file(path)
         return read_toml_text(path.read_bytes(), parse_float=Typed)
-    except OSError as error:
-        refuse(path, "cannot be read", error.strerror or str(error))
-    except InvalidInput as error:
-        raise error.within(path) from error
 
 
 def check_tables(path: Path, tables: Mapping[str, Any]) -> None:

@@ -6,14 +6,14 @@ an error like others. Reads also leave no pages behind that count as memory of t
 
 import mmap
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import FilePath
+from asperity.base.arguments import FilePath, reading
 
 Stamp = tuple[int, int, int, int]
 
@@ -34,16 +34,14 @@ class FileArray:
         (y0, y1), (x0, x1) = ((part.start, part.stop) for part in box)
         (down, along), item = self.strides, self.dtype.itemsize
         if abs(along) > abs(down):  # a transposed file: its rows are these columns
-            turned = FileArray(
-                self.path, self.place, self.shape[::-1], (along, down), self.dtype, self.stamp
-            )
+            turned = replace(self, shape=self.shape[::-1], strides=(along, down))
             return np.ascontiguousarray(turned[box[::-1]].T)
         heights = np.empty((y1 - y0, x1 - x0), self.dtype)
         length = (x1 - x0 - 1) * abs(along) + item
         first = min(x0 * along, (x1 - 1) * along)
         packed = along == item
         line = bytearray(length)
-        with self._opened() as file:
+        with reading(self), open(self.path, "rb", buffering=0) as file:
             self._check(os.fstat(file.fileno()))
             for row in range(y1 - y0):
                 file.seek(self.place + (y0 + row) * down + first)
@@ -54,21 +52,10 @@ class FileArray:
             self._check(os.fstat(file.fileno()))
         return heights
 
-    def _opened(self) -> Any:
-        try:
-            return open(self.path, "rb", buffering=0)
-        except OSError as error:
-            raise InvalidInput(f"cannot be read: {error.strerror or error}", where=self) from error
-
     def _fill(self, file: Any, into: Any) -> None:
         got, view = 0, memoryview(into)
         while got < len(view):
-            try:
-                count = file.readinto(view[got:])
-            except OSError as error:
-                raise InvalidInput(
-                    f"cannot be read: {error.strerror or error}", where=self
-                ) from error
+            count = file.readinto(view[got:])
             if not count:
                 raise InvalidInput("ends before its heights do; was it cut short?", where=self)
             got += count
@@ -98,13 +85,9 @@ def file_behind(array: NDArray[Any]) -> FileArray | None:
     start = owner.offset - owner.offset % mmap.ALLOCATIONGRANULARITY
     place = start + array.ctypes.data - mapped.ctypes.data
     path = os.fspath(owner.filename)
-    try:
-        with open(path, "rb", buffering=0) as file:
-            stamp = stamp_of(os.fstat(file.fileno()))
-            same = _is_mapped(file, mapping._mmap)
-    except OSError as error:
-        problem = f"cannot be read: {error.strerror or error}"
-        raise InvalidInput(problem, where=FilePath(path)) from error
+    with reading(FilePath(path)), open(path, "rb", buffering=0) as file:
+        stamp = stamp_of(os.fstat(file.fileno()))
+        same = _is_mapped(file, mapping._mmap)
     if not same:
         raise InvalidInput("was replaced after it was mapped: load it again", where=FilePath(path))
     ny, nx = array.shape

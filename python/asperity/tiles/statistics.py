@@ -80,8 +80,10 @@ class HeightStatistics(Table):
             axes.axhline(height, color="0.4", linestyle="--")
             axes.annotate(name, (0.02, height), xycoords=("axes fraction", "data"))
         axes.set_xticks([])
-        axes.set_xlabel(f"Skewness {self.skewness:.3g}, kurtosis {self.kurtosis:.3g}")
-        axes.set_ylabel("Height above the mean [m]")
+        axes.set(
+            xlabel=f"Skewness {self.skewness:.3g}, kurtosis {self.kurtosis:.3g}",
+            ylabel="Height above the mean [m]",
+        )
         axes.legend(fontsize="small")
 
 

@@ -8,7 +8,7 @@ from importlib.resources import as_file, files
 from pathlib import Path
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import brief
+from asperity.base.arguments import brief, reading
 from asperity.base.diagnostics import Argument, must_be, must_have, refusal
 from asperity.io.files import check_file
 from asperity.io.read_surface import cell
@@ -68,24 +68,18 @@ def read_contacts(path: Path) -> list[Contact]:
         In one line: file, line, column, the value found and what is allowed.
     """
     try:
-        check_file(path)
-        with path.open(encoding="utf-8", newline="") as file:
-            reader = csv.DictReader(file)
-            missing = [
-                name for name in ("case", *_NUMBERS) if name not in (reader.fieldnames or ())
-            ]
+        with reading(path):
+            check_file(path)
+            reader = csv.DictReader(path.read_text(encoding="utf-8").splitlines(keepends=True))
+            names = reader.fieldnames or ()
+            missing = [name for name in ("case", *_NUMBERS) if name not in names]
             if missing:
-                there = ",".join(reader.fieldnames or ())
-                raise InvalidInput(f"header {brief(there)} has no column {', '.join(missing)}")
+                there = brief(",".join(names))
+                raise InvalidInput(f"header {there} has no column {', '.join(missing)}")
             contacts = [_contact(reader.line_num, row) for row in reader]
-    except OSError as error:
-        raise InvalidInput(f"cannot be read: {error.strerror or error}", where=path) from error
-    except UnicodeDecodeError as error:
-        raise InvalidInput(f"is not text: {error}", where=path) from error
-    except InvalidInput as error:
-        raise error.within(path) from error
-    except csv.Error as error:
-        raise InvalidInput(f"{error}", where=path) from error
+    except (UnicodeDecodeError, csv.Error) as error:
+        kind = "is not text: " if isinstance(error, UnicodeDecodeError) else ""
+        raise InvalidInput(f"{kind}{error}", where=path) from error
     if not contacts:
         raise must_have("", "1 or more", "has 0 rows", where=path)
     return contacts
