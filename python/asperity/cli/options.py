@@ -152,6 +152,11 @@ def _number_or_none(text: str) -> float | None:
         return None
 
 
+def flags(*arguments: str) -> dict[str, str]:
+    """The options of these arguments, by their names in Python."""
+    return {name: f"--{name.replace('_', '-')}" for name in arguments}
+
+
 def option(to: argparse.ArgumentParser, name: str, text: str, read: Any = None, **how: Any) -> None:
     """Add an option to a verb: "--name VALUE", what the help says, and what reads a value. Without
     a word for the value, and with nothing that says of which kind it is, it is a switch."""

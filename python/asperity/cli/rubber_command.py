@@ -15,7 +15,7 @@ from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Note, fatal_first, refusal
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
-from asperity.cli.options import number, numbers, option, pairs, typed_options
+from asperity.cli.options import flags, number, numbers, option, pairs, typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
@@ -33,15 +33,8 @@ from asperity.shift_factors import WlfFit
 _PRONY: dict[str, Any] = {".csv": None, ".inp": "abaqus", ".mac": "ansys"}
 _FOLLOWS = 0.05  # decades: of a_T, about what 4 % of mu stand for
 
-_FLAGS = {
-    "reference_temperature": "--reference-temperature",
-    "vertical_shift": "--vertical-shift",
-    "columns": "--columns",
-    "units": "--units",
-    "modulus": "--modulus",
-    "poisson_ratio": "--poisson-ratio",
-    "temperatures": "--temperatures",
-}
+_READ = ("columns", "units", "modulus", "poisson_ratio", "temperatures")
+_FLAGS = flags(*_READ, "reference_temperature", "vertical_shift")
 
 
 def rubber(args: Namespace) -> None:
@@ -53,14 +46,7 @@ def rubber(args: Namespace) -> None:
         if args.reference_temperature is not None:
             flag, temperature = "--reference-temperature", args.reference_temperature
             plausible.check(flag, temperature, quantities.TEMPERATURE)
-        isotherms = read_isotherms(
-            files,
-            columns=args.columns,
-            units=args.units,
-            modulus=args.modulus,
-            poisson_ratio=args.poisson_ratio,
-            temperatures=args.temperatures,
-        )
+        isotherms = read_isotherms(files, **{name: getattr(args, name) for name in _READ})
         middle = isotherms[len(isotherms) // 2].temperature
         reference = middle if args.reference_temperature is None else args.reference_temperature
         shifts = None
@@ -77,13 +63,7 @@ def rubber(args: Namespace) -> None:
     facts = _facts(build, wlf, prony)
     inputs: dict[str, Any] = {
         "files": [str(file) for file in files],
-        "columns": args.columns,
-        "units": args.units,
-        "modulus": args.modulus,
-        "poisson_ratio": args.poisson_ratio,
-        "temperatures": args.temperatures,
-        "vertical_shift": args.vertical_shift,
-        "shift": args.shift,
+        **{name: getattr(args, name) for name in (*_READ, "vertical_shift", "shift")},
         "isotherms": _isotherms(build),
         "found": facts,
     }

@@ -14,7 +14,7 @@ from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import MUST_BE, Argument, Note, valued
 from asperity.base.iso_25178 import height_parameters
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
-from asperity.cli.options import typed_options
+from asperity.cli.options import flags, typed_options
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.open_map import open_map
@@ -29,9 +29,8 @@ from asperity.surface import HeightMap, LineScan
 from asperity.tiles.coarse import middle_tile, thinned
 from asperity.tiles.statistics import HeightStatistics, statistics_of
 
-_FLAGS = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
-_TILED = {"tiles": "--tiles", "overlap": "--overlap", "threads": "--threads"}
-_TILED |= {"max_dropouts": "--max-dropouts", "window": "--window"}
+_FLAGS = flags("pixel_size", "unit", "channel")
+_TILED = flags("tiles", "overlap", "threads", "max_dropouts", "window")
 
 
 @dataclass(frozen=True)
@@ -62,21 +61,18 @@ def spectrum(args: Namespace) -> None:
     cutoff = measured.cutoff_for_slope(1.3)
     reached = cutoff < measured.q1
     inputs = {"file": str(path), "channel": args.channel, **result.inputs}
-    for key, option in (("unit", args.unit), ("q_min", args.q_min), ("q_max", args.q_max)):
-        if option is not None:
-            inputs[key] = option
+    options = {name: getattr(args, name) for name in ("unit", "q_min", "q_max")}
+    inputs |= {name: one for name, one in options.items() if one is not None}
+    of, shape = result.statistics, ("skewness", "kurtosis")
     numbers: dict[str, float | None] = {
-        "rms_height_m": measured.rms_height,
-        "rms_slope": measured.rms_slope,
-        "rms_slope_by_differences": result.statistics.rms_slope,
-        "skewness": result.statistics.skewness,
-        "kurtosis": result.statistics.kurtosis,
-        "z_max_m": result.statistics.z_max,
-        "z_min_m": result.statistics.z_min,
+        **{"rms_height_m": measured.rms_height, "rms_slope": measured.rms_slope},
+        "rms_slope_by_differences": of.rms_slope,
+        **{name: getattr(of, name) for name in shape},
+        **{"z_max_m": of.z_max, "z_min_m": of.z_min},
         "slope_cutoff_1.3_per_m": cutoff if reached else None,
     }
     if isinstance(result.flat, HeightMap):
-        numbers |= _iso_25178(result.statistics)
+        numbers |= _iso_25178(of)
     if result.lay is not None:
         numbers["slope_anisotropy"] = result.lay.ratio
         if result.lay.ratio > scan.LAY:
@@ -159,33 +155,20 @@ def _in_memory(path: Path, args: Namespace) -> Measured:
     if path.is_dir():
         raise InvalidInput("is a folder; a Zarr array is read with --tiles 4096", where=path)
     with rename_in_errors(None, {**_FLAGS, "max_fraction": "--max-dropouts"}):
-        raw, filled = read_filled(
-            path,
-            max_fraction=args.max_dropouts,
-            channel=args.channel,
-            pixel_size=args.pixel_size,
-            unit=args.unit,
-        )
+        how = {name: getattr(args, name) for name in ("channel", "pixel_size", "unit")}
+        raw, filled = read_filled(path, max_fraction=args.max_dropouts, **how)
     how = {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
     with rename_in_errors(path, {}):
         measured = surface_spectrum(filled, **how)
     lay = scan.lay_of(filled, measured, **how)
     flat = scan.flat(filled, how["detrend"])
-    return Measured(
-        spectrum=measured,
-        statistics=flat,
-        inputs={
-            "shape": list(raw.heights.shape),
-            "pixel_size_m": raw.spacing if isinstance(raw, LineScan) else list(raw.pixel_size),
-            "dropout_fraction": raw.dropout_fraction,
-            "window": args.window,
-            "detrend": args.detrend,
-        },
-        lay=lay,
-        notes=scan.scan_notes(filled, lay),
-        raw=raw,
-        flat=flat,
-    )
+    facts = {
+        "shape": list(raw.heights.shape),
+        "pixel_size_m": raw.spacing if isinstance(raw, LineScan) else list(raw.pixel_size),
+        "dropout_fraction": raw.dropout_fraction,
+        **{name: getattr(args, name) for name in ("window", "detrend")},
+    }
+    return Measured(measured, flat, facts, lay, scan.scan_notes(filled, lay), raw, flat)
 
 
 def _by_tiles(path: Path, args: Namespace) -> Measured:
@@ -212,24 +195,18 @@ def _by_tiles(path: Path, args: Namespace) -> Measured:
     if tile is not None:
         lay = scan.lay_of(tile, measured, window=args.window, detrend=detrend)
     notes = [] if tile is None else scan.scan_notes(tile, lay)
-    return Measured(
-        spectrum=measured,
-        statistics=statistics,
-        inputs={
-            "shape": list(source.shape),
-            "pixel_size_m": list(source.pixel_size),
-            "dropout_fraction": statistics.dropout_fraction,
-            "window": args.window,
-            "detrend": args.detrend,
-            "tiles": args.tiles if isinstance(args.tiles, int) else list(args.tiles),
-            "overlap": 0.5 if args.overlap is None else args.overlap,
-            "max_dropouts": float(args.max_dropouts),
-        },
-        lay=lay,
-        notes=[note.followed_by(" (a tile in the middle)") for note in notes],
-        raw=raw,
-        flat=scan.flat(filled, detrend),
-    )
+    facts = {
+        "shape": list(source.shape),
+        "pixel_size_m": list(source.pixel_size),
+        "dropout_fraction": statistics.dropout_fraction,
+        **{name: getattr(args, name) for name in ("window", "detrend")},
+        "tiles": args.tiles if isinstance(args.tiles, int) else list(args.tiles),
+        "overlap": 0.5 if args.overlap is None else args.overlap,
+        "max_dropouts": float(args.max_dropouts),
+    }
+    notes = [note.followed_by(" (a tile in the middle)") for note in notes]
+    flat = scan.flat(filled, detrend)
+    return Measured(measured, statistics, facts, lay, notes, raw, flat)
 
 
 def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:

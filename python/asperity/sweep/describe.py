@@ -1,7 +1,6 @@
 """A sweep's results as xarray, Zarr and NetCDF know them: names, units, coordinates, attributes."""
 
 import hashlib
-import itertools
 import json
 import os
 import warnings
@@ -65,15 +64,11 @@ class Described:
         xarray = imported("xarray", "sweep")
         variables = {name: (self.dimensions, one, _said(name)) for name, one in values.items()}
         codes, texts = _messages(tally.messages)
-        return xarray.Dataset(
-            {
-                **variables,
-                "failure": (self.dimensions, failure, _FAILURE),
-                "failure_message": (("failure_code",), texts, _MESSAGE),
-            },
-            {**self.coordinates, "failure_code": (("failure_code",), codes)},
-            {**self.attributes(), **tally.attributes(), "complete": 1},
-        )
+        variables["failure"] = self.dimensions, failure, _FAILURE
+        variables["failure_message"] = ("failure_code",), texts, _MESSAGE
+        attributes = {**self.attributes(), **tally.attributes(), "complete": 1}
+        coordinates = {**self.coordinates, "failure_code": (("failure_code",), codes)}
+        return xarray.Dataset(variables, coordinates, attributes)
 
     def create(self, zarr: Any, path: Path, cut: Sequence[int]) -> None:
         """Create an empty Zarr store with chunks of `cut`."""
@@ -84,23 +79,11 @@ class Described:
         group = zarr.create_group(str(path), zarr_format=3, attributes=attributes)
         along = {"shape": self.shape, "chunks": tuple(cut), "dimension_names": self.dimensions}
         blosc = imported("zarr.codecs", "sweep").BloscCodec(shuffle="shuffle", **BLOSC)
+        kinds: dict[str, Any] = {"dtype": "f8", "fill_value": np.nan}
         for name in self.variables:
-            group.create_array(
-                name,
-                dtype="f8",
-                fill_value=np.nan,
-                compressors=blosc,
-                attributes=_said(name),
-                **along,
-            )
-        group.create_array(
-            FAILURE,
-            dtype="i8",
-            fill_value=0,
-            compressors=blosc,
-            attributes=_FAILURE,
-            **along,
-        )
+            group.create_array(name, attributes=_said(name), compressors=blosc, **kinds, **along)
+        kinds = {"dtype": "i8", "fill_value": 0, "attributes": _FAILURE}
+        group.create_array(FAILURE, compressors=blosc, **kinds, **along)
         for name, (dimension, values, said) in self.coordinates.items():
             _add(group, name, dimension, values, said)
         group.create_group("_sweep")
@@ -176,50 +159,20 @@ def label(entry: Any) -> str:
     return "none" if entry is None else json.dumps(entry)
 
 
-def write_netcdf(path: Path, dataset: Any, group: Any) -> None:
-    """Write a store as NetCDF, chunk by chunk, and put it in its place when it is whole.
-
-    `dataset` and `group` are the store as xarray and as Zarr open it.
-    """
-    netcdf = imported("netCDF4", "sweep")
+def write_netcdf(path: Path, store: Path) -> None:
+    """Write a Zarr store as NetCDF, chunk by chunk, and put it in its place when it is whole."""
+    imported("netCDF4", "sweep")
+    here = imported("dask", "sweep").config.set(scheduler="synchronous")  # whatever computed
     try:
-        with folder_beside(path) as folder:
+        with folder_beside(path) as folder, here:
             part = folder / "store.nc"
             part.touch()  # with the permissions that a file has here
-            with netcdf.Dataset(str(part), "w") as file:
-                _fill(file, dataset, group)
+            with imported("xarray", "sweep").open_dataset(store, engine="zarr", chunks={}) as whole:
+                for name, one in whole.variables.items():
+                    missing = np.nan if name in whole.data_vars and one.dtype.kind == "f" else None
+                    one.encoding = {"chunksizes": one.encoding["chunks"], "_FillValue": missing}
+                whole.to_netcdf(part, engine="netcdf4")
             os.replace(part, path)
     except (OSError, RuntimeError) as error:  # the latter is NetCDF's, which knows no reasons
         reason = getattr(error, "strerror", None) or f"{error}: is the disk full?"
         raise Error(f"{path}: cannot be written: {reason}; --resume goes on") from error
-
-
-def _fill(file: Any, dataset: Any, group: Any) -> None:
-    cut = tuple(group.attrs["cut"])
-    file.setncatts(dataset.attrs)
-    beside = [name for name in dataset.coords if name not in dataset.sizes]
-    if beside:
-        file.coordinates = " ".join(beside)
-    for name, size in dataset.sizes.items():
-        file.createDimension(name, size)
-    swept = dataset["failure"].dims
-    for name, array in dataset.variables.items():
-        of_points = array.dims == swept and bool(swept)
-        text = array.dtype.kind in "UTO"
-        made = file.createVariable(
-            name,
-            str if text else np.dtype(array.dtype.str[1:]),
-            array.dims,
-            chunksizes=cut if of_points else None,
-            fill_value=np.nan if array.dtype.kind == "f" and of_points else None,
-        )
-        made.setncatts({k: v for k, v in array.attrs.items() if k != "_FillValue"})
-        if not of_points:
-            if array.size:
-                made[...] = array.values.astype(object) if text else array.values
-            continue
-        whole = group[name]
-        ranges = (range(0, size, step) for size, step in zip(array.shape, cut, strict=True))
-        for start in itertools.product(*ranges):
-            where = tuple(slice(s, s + c) for s, c in zip(start, cut, strict=True))
-            made[where] = whole[where]

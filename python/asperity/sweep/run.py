@@ -153,8 +153,8 @@ def computed(
         dataset = zarr.finish()
         if part == path:
             return dataset
-        with dataset:
-            write_netcdf(path, dataset, zarr.group)
+        dataset.close()
+        write_netcdf(path, part)
     shutil.rmtree(part)
     return open_store(path)
 

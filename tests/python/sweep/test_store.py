@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.sweep import chunks, describe, existing, run, store, task
+from asperity.sweep import chunks, existing, run, store, task
 from helpers.cases import case
 from helpers.sweeps import SCENE as STIFF
 
@@ -279,7 +279,7 @@ def test_netcdf_that_cannot_be_written_leaves_what_can_be_resumed(expected, monk
         raise RuntimeError("NetCDF: HDF error")  # as it says of a full disk
 
     with monkeypatch.context() as patched:
-        patched.setattr(describe, "_fill", full)
+        patched.setattr(xarray.Dataset, "to_netcdf", full)
         with pytest.raises(asperity.Error, match=r"a\.nc: cannot be written: NetCDF"):
             sweep(SCENE, OVER, store="a.nc")
     assert os.listdir() == ["a.nc.part"]
