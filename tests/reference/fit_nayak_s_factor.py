@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import erfinv
 
-FILE = Path(__file__).parents[2] / "python/asperity/validation/bem_area.csv"
+FILE = Path(__file__).parents[2] / "python/asperity_scripts/validate/bem_area.csv"
 SHARES = np.unique(np.r_[1 - np.logspace(-14, -0.31, 1500), np.logspace(-0.32, -5, 2500)])[:0:-1]
 G = 1 / (4 * erfinv(SHARES) ** 2)
 

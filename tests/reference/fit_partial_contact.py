@@ -30,7 +30,7 @@ from scipy.optimize import least_squares
 from scipy.special import erf, erfc
 
 HERE = Path(__file__).parent
-BEM = HERE.parents[1] / "python/asperity/validation/bem_area.csv"
+BEM = HERE.parents[1] / "python/asperity_scripts/validate/bem_area.csv"
 NU = 0.5
 NODES = 35  # a unit of ln q
 TAIL_STEP = np.log(33) / 60

@@ -8,6 +8,7 @@ Anything else, a traceback above all, is printed with the mutation and fails the
 """
 
 import contextlib
+import inspect
 import io
 import random
 import resource
@@ -26,7 +27,7 @@ from options import options
 
 import asperity
 from asperity.cli.main import main as command
-from asperity.validation.contacts import read_contacts
+from asperity_scripts.validate.contacts import read_contacts
 
 SECONDS = 60
 SCENE = """\
@@ -130,7 +131,7 @@ def kinds() -> dict[str, tuple[str, bytes, list[str]]]:
         for v in np.geomspace(1e-3, 1, 6)
     ]
     shifts = [(283.15, 2), (298.15, 0), (313.15, -2)]
-    bem = Path(asperity.validation.contacts.__file__).with_name("bem_area.csv").read_bytes()
+    bem = Path(inspect.getfile(read_contacts)).with_name("bem_area.csv").read_bytes()
     return {
         "scene": ("f.toml", SCENE.encode(), ["friction", "{file}"]),
         "npy": ("f.npy", saved(np.save, h=h), SPECTRUM),

@@ -1,4 +1,4 @@
-"""What each correction is worth, held against exact contact: elastic and sliding."""
+"""Exact sliding contact, which the theory is held against."""
 
 from asperity.validation.sliding import SlidingContact, SlidingStep, slide
 

@@ -20,10 +20,10 @@ from asperity.io.files import check_directory, write_files
 from asperity.io.table import Table
 from asperity.scene.scan import read_filled
 from asperity.surface import HeightMap
-from asperity.validation.boundary_elements import own_contacts
-from asperity.validation.contacts import Contact, read_contacts, shipped
-from asperity.validation.predictions import Prediction, models_for, predict
+from asperity_scripts.validate.boundary_elements import own_contacts
+from asperity_scripts.validate.contacts import Contact, read_contacts, shipped
 from asperity_scripts.validate.figures import error_figure, shift_figure
+from asperity_scripts.validate.predictions import Prediction, models_for, predict
 from asperity_scripts.validate.sliding import refuse_alone, validate_sliding
 from asperity_scripts.validate.summary import error_rows, summary
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 from asperity.draw.figure import COLUMN, new_figure, picture
 from asperity.draw.style import colours as colours_for
 from asperity.draw.style import grey, narrow, palette
-from asperity.validation.contacts import Contact
-from asperity.validation.predictions import (
+from asperity_scripts.validate.contacts import Contact
+from asperity_scripts.validate.predictions import (
     Prediction,
     Quantity,
     needed_shift,

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from asperity.validation.predictions import Prediction, Quantity
+from asperity_scripts.validate.predictions import Prediction, Quantity
 
 TITLE = "# What each correction is worth"
 

@@ -23,9 +23,9 @@ import asperity
 from asperity.draw.figure import legend, new_figure, picture
 from asperity.draw.style import COLOURS
 from asperity.validation import slide
-from asperity.validation.boundary_elements import contact
-from asperity.validation.contacts import Contact
-from asperity.validation.predictions import Model, models_for, predict
+from asperity_scripts.validate.boundary_elements import contact
+from asperity_scripts.validate.contacts import Contact
+from asperity_scripts.validate.predictions import Model, models_for, predict
 
 Array = np.ndarray
 LAW = asperity.SelfAffineSpectrum(rms_height=6e-6, hurst=0.8, q0=1e4, q1=1e6)

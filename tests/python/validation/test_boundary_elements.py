@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.validation.boundary_elements import Contacts, contact, mirrored
-from asperity.validation.contacts import shipped
+from asperity_scripts.validate.boundary_elements import Contacts, contact, mirrored
+from asperity_scripts.validate.contacts import shipped
 from helpers.boundary_elements import pressed
 
 BAND = {"rms_height": 0.01, "hurst": 0.8}

@@ -10,8 +10,8 @@ import pytest
 
 import asperity
 from asperity.validation import SlidingContact, SlidingStep, slide
-from asperity.validation.boundary_elements import mirrored
 from asperity.validation.sliding import continued
+from asperity_scripts.validate.boundary_elements import mirrored
 from helpers import boundary_elements
 from helpers.cases import case
 

@@ -7,7 +7,7 @@ import pytest
 
 import asperity
 from asperity.cli.main import main
-from asperity.validation.boundary_elements import own_contacts
+from asperity_scripts.validate.boundary_elements import own_contacts
 from helpers.cases import long
 
 SURFACE = asperity.SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2.5e3, q1=2e4)

@@ -12,8 +12,8 @@ import pytest
 
 import asperity
 from asperity.cli.main import main
-from asperity.validation.contacts import read_contacts, shipped
-from asperity.validation.predictions import (
+from asperity_scripts.validate.contacts import read_contacts, shipped
+from asperity_scripts.validate.predictions import (
     MODELS,
     energy,
     needed_shift,
@@ -21,7 +21,7 @@ from asperity.validation.predictions import (
     predict,
 )
 
-FILE = Path(asperity.__file__).parent / "validation/bem_area.csv"
+FILE = Path(asperity.__file__).parents[1] / "asperity_scripts/validate/bem_area.csv"
 CONTACTS = shipped()
 NAMES = [model.name for model in MODELS]
 

@@ -55,7 +55,7 @@ class Contact:
 
 def shipped() -> list[Contact]:
     """The 177 contacts that corrections are measured on: see bem_area.csv."""
-    with as_file(files("asperity.validation") / "bem_area.csv") as path:
+    with as_file(files("asperity_scripts.validate") / "bem_area.csv") as path:
         return read_contacts(path)
 
 

@@ -16,8 +16,8 @@ from asperity.measured_spectrum import power_spectrum
 from asperity.rubber import PronySeries
 from asperity.scene.model import Progress
 from asperity.surface import HeightMap
-from asperity.validation.contacts import Contact
 from asperity.validation.sliding import slide
+from asperity_scripts.validate.contacts import Contact
 
 _Array = NDArray[np.float64]
 

@@ -23,7 +23,7 @@ from asperity.correction import (
 from asperity.friction import friction
 from asperity.rubber import PronySeries
 from asperity.spectrum import Spectrum, TabulatedSpectrum
-from asperity.validation.contacts import Contact
+from asperity_scripts.validate.contacts import Contact
 
 Quantity = Literal["area", "energy"]
 Form = Literal["exact", "interpolated"]
