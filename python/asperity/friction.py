@@ -177,7 +177,7 @@ def friction(
     at_points = {"pressure": pressure, "velocity": velocity}
     if temperature is not None:
         at_points["temperature"] = temperature
-    _check_temperature(temperature, shift, law)
+    check_temperature(temperature, shift, law)
     shape, (p, v, *at) = broadcast(**at_points)
     model = contact_model(poisson_ratio, correction, form, rtol, method, strain_factors, angle)
     parts = surface._core, solid._core
@@ -267,9 +267,10 @@ def known_shift(rubber: AnyRubber, shift: TemperatureShift | None) -> Temperatur
     return getattr(rubber, "shift_factors", None) if shift is None else shift
 
 
-def _check_temperature(
+def check_temperature(
     temperature: ArrayLike | None, shift: TemperatureShift | None, law: TemperatureShift | None
 ) -> None:
+    """Refuse a shift without a temperature, and a temperature without a shift."""
     if temperature is None and shift is not None:
         raise unfit("shift", shift, "needs temperature=, at which to take a_T")
     if temperature is not None and law is None:

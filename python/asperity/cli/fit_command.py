@@ -13,8 +13,8 @@ from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Argument, Note, must_be, refusal
 from asperity.cli.friction_commands import (
-    band_progress,
     check_outputs,
+    progress,
     refuse_overwrite,
     write_outputs,
 )
@@ -144,7 +144,12 @@ def _fit_adhesion(args: Namespace) -> None:
     if adhesion is None:
         raise problem or AssertionError
     fits = [
-        Fitted(model, adhesion, problem, experiment.curves(model, adhesion, band_progress(model)))
+        Fitted(
+            model,
+            adhesion,
+            problem,
+            experiment.curves(model, adhesion, progress(f"{model.path}, band")),
+        )
         for model, (adhesion, problem) in zip(models, found_in, strict=True)
     ]
     table = _table(args, experiment, fits, unusual)

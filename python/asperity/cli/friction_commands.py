@@ -30,7 +30,7 @@ from asperity.plot import friction as plot_friction
 from asperity.plot.design import design_figure
 from asperity.report.make import write_report
 from asperity.scene.design import design as designed
-from asperity.scene.model import Progress, Scene
+from asperity.scene.model import Progress
 from asperity.scene.results import friction_table, scene_inputs
 from asperity.scene.scene import load_scene
 
@@ -83,11 +83,6 @@ def progress(title: str) -> Progress:
     bar: Callable[..., Any] = importlib.import_module("tqdm").tqdm
     shown = "{l_bar}{bar}| {elapsed}<{remaining}{postfix}"
     return lambda chunks: bar(chunks, desc=title, delay=2, leave=False, bar_format=shown)
-
-
-def band_progress(scene: Scene) -> Progress:
-    """The same while a band is drawn."""
-    return progress(f"{scene.path}, band")
 
 
 def area(args: Namespace) -> None:

@@ -13,7 +13,7 @@ from asperity.base.diagnostics import Argument, refusal, unfit
 from asperity.contact import Form, Method, contact_model
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
-from asperity.friction import known_shift
+from asperity.friction import check_temperature, known_shift
 from asperity.friction_map.look_up import NOTE_LINE, FrictionMap
 from asperity.heating import Heating
 from asperity.rubber import Rubber
@@ -176,9 +176,7 @@ def _law(
         if heating is not None:
             needs = "needs temperature= and shift=, from which the rubber is heated"
             raise InvalidInput(Argument("heating"), f": {needs}")
-        if temperature is None:
-            raise unfit("shift", shift, "needs temperature=, at which to take a_T")
-        raise unfit("temperature", temperature, "needs shift=, which gives a_T(T)")
+        check_temperature(temperature, shift, law)
     sides = _temperatures(temperature)
     if heating is None and sides[0] != sides[1]:
         only = "must be a number where no heating is given; a look-up's a_T leads to others"

@@ -41,7 +41,7 @@ class MeasuredFriction:
 
     velocity: NDArray[np.float64]  # [m/s]
     mu: NDArray[np.float64]  # [-]
-    pressure: NDArray[np.float64] | None  # [Pa], None where the file has none
+    pressure: NDArray[np.float64] | None = None  # [Pa], None where the file has none
     temperature: NDArray[np.float64] | None = None  # [K], so too
 
 
@@ -64,10 +64,7 @@ def measured_friction(measured: Any) -> tuple[MeasuredFriction, Path]:
         if not ((column > 0) & (column < math.inf)).all():
             raise must_be(f"measured: {name}", "positive and finite")
     flat = {name: np.array(np.broadcast_to(one, shape)).ravel() for name, one in given.items()}
-    points = MeasuredFriction(
-        flat["velocity"], flat["mu"], flat.get("pressure"), flat.get("temperature")
-    )
-    return points, Path("measured")
+    return MeasuredFriction(**flat), Path("measured")
 
 
 def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
@@ -110,9 +107,7 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
             factor, offset = _QUANTITIES[kind].units[unit]
             values = values * factor + offset
         arrays[kind] = values
-    return MeasuredFriction(
-        arrays["velocity"], arrays["mu"], arrays.get("pressure"), arrays.get("temperature")
-    )
+    return MeasuredFriction(**arrays)
 
 
 def _column(path: Path, header: list[str], kind: str) -> str | None:

@@ -24,7 +24,7 @@ from asperity.scene.rubber import RUBBER, BuiltRubber
 from asperity.scene.surface import SURFACE
 from asperity.uncertainty.band import friction_band
 
-MOST_TEMPERATURES = MOST_DIRECTIONS = 1000  # of a list
+MOST_LISTED = 1000  # temperatures, or directions
 TEMPERATURE = kelvin_or_celsius(
     sweep,
     "temperature",
@@ -45,22 +45,20 @@ def temperatures_of(path: Path, conditions: dict[str, Any]) -> list[float | None
     if not entries:
         return [None]
     [(key, values)] = entries.items()
-    kelvin = values + (ZERO_CELSIUS if key == "temperature_c" else 0)
-    if len(kelvin) > MOST_TEMPERATURES:
-        problem = f"has {len(kelvin)} entries: must be at most {MOST_TEMPERATURES}"
-        refuse(path, f"[conditions] {key}", problem)
-    return [float(one) for one in kelvin]
+    return _listed(path, key, values + (ZERO_CELSIUS if key == "temperature_c" else 0))
 
 
 def directions_of(path: Path, conditions: dict[str, Any]) -> list[float | None]:
     """Directions of sliding [degrees] of [conditions], taken out of it; None where it has none."""
     values = conditions.pop("direction_deg", None)
-    if values is None:
-        return [None]
-    if len(values) > MOST_DIRECTIONS:
-        problem = f"has {len(values)} entries: must be at most {MOST_DIRECTIONS}"
-        refuse(path, "[conditions] direction_deg", problem)
-    return [float(one) for one in values]
+    return [None] if values is None else _listed(path, "direction_deg", values)
+
+
+def _listed(path: Path, key: str, values: Any) -> list[float | None]:
+    if len(values) > MOST_LISTED:
+        problem = f"has {len(values)} entries: must be at most {MOST_LISTED}"
+        refuse(path, f"[conditions] {key}", problem)
+    return [*map(float, values)]
 
 
 def check_heated(path: Path, temperature: float | None, rubber: BuiltRubber) -> None:

@@ -45,15 +45,8 @@ HEATING = fields_of(Heating)
 HEATING_NAMES = names_of("heating", HEATING)
 
 
-def build_heating(path: Path, table: object) -> tuple[Heating, Values]:
-    return _build(path, "heating", table, Heating)
-
-
-def build_adhesion(path: Path, table: object) -> tuple[Adhesion, Values]:
-    return _build(path, "adhesion", table, Adhesion)
-
-
-def _build(path: Path, section: str, table: object, part: type[_Part]) -> tuple[_Part, Values]:
+def build_part(path: Path, section: str, table: object, part: type[_Part]) -> tuple[_Part, Values]:
+    """Adhesion or heating of a scene, which a table has all of."""
     fields = fields_of(part)
     values = read_table(path, section, table, fields)
     needed = required(fields)

@@ -139,8 +139,6 @@ def build_rubber(
             refuse(path, f"[rubber] {key}", f"must be left out where {context}")
     factors = build_strain(path, values)
     built = _at(path, values, source, temperature, measure)
-    if factors is None:
-        return built
     return replace(built, strain_factors=factors)
 
 
@@ -156,7 +154,8 @@ def _at(
     for key in ("temperature_k", "temperature_c"):
         if key in values:
             refuse(path, f"[rubber] {key}", "must be left out where [conditions] has a temperature")
-    with _blaming_conditions():
+    named = {"[rubber] temperature_k": "[conditions] temperature_k"}  # the table that has it
+    with rename_in_errors(None, named):
         kelvin = {**_in_kelvin(path, values), "temperature_k": temperature}
         built = _build(path, source, kelvin, measure)
     used = {key: one for key, one in built.values.items() if key != "temperature_k"}
@@ -190,16 +189,12 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
             if key in values:
                 problem = "needs shift, a file of shift factors, or wlf_c1 and wlf_c2_k"
                 refuse(path, f"[rubber] {key}", problem)
-        return _without_errors(rubber, values)
+        return BuiltRubber(rubber, values, Drawn[Rubber](rubber))
     known = "shift holds a_T of several" if "shift" in values else "the law gives a_T at any"
     require(path, "rubber", values, ("temperature_k",), f"{_ADD}: {known}")
     shifted = rubber.shifted(shift_factor(path, shifts, values))
-    return replace(
-        _without_errors(shifted, values),
-        shift=shifts,
-        at_reference=rubber,
-        drawn_at_reference=drawn_shifted(rubber, shifts),
-    )
+    made = BuiltRubber(shifted, values, Drawn[Rubber](shifted), shifts, rubber)
+    return replace(made, drawn_at_reference=drawn_shifted(rubber, shifts))
 
 
 def _in_kelvin(path: Path, values: Values) -> Values:
@@ -230,20 +225,6 @@ def _naming_temperature(values: Values) -> Iterator[None]:
                 "asperity rubber gives"
             )
         raise error from error.__cause__
-
-
-@contextmanager
-def _blaming_conditions() -> Iterator[None]:
-    """Let errors on a temperature name the table that has it."""
-    try:
-        yield
-    except (InvalidInput, OutOfRange) as error:
-        named = {"[rubber] temperature_k": "[conditions] temperature_k"}
-        raise error.said(partial(in_keys, names=named)) from error
-
-
-def _without_errors(rubber: Rubber, values: Values) -> BuiltRubber:
-    return BuiltRubber(rubber, values, Drawn[Rubber](rubber))
 
 
 def build_measured(path: Path, values: Values) -> tuple[list[Isotherm], MasterCurveBuild]:
@@ -285,26 +266,19 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
     def draw(rng: Generator) -> Rubber:  # its shifts move the ends of what was measured
         return _at_temperature(path, values, draw_build(build, rng), "prony")
 
-    made = BuiltRubber(
-        rubber,
-        values,
-        Drawn[Rubber](rubber, draw),
-        isotherms=isotherms,
-        build=build,
-    )
+    drawn_at = Drawn[Rubber](rubber, draw)
+    made = BuiltRubber(rubber, values, drawn_at, isotherms=isotherms, build=build)
     if values.get("vertical_shift") is not None:  # the model of heat has no b_T
         return made
 
+    at_reference = {**values, "temperature_k": values["reference_temperature_k"]}
+
     def shifted(build: MasterCurveBuild, beyond: str | None) -> ShiftedRubber:
-        return ShiftedRubber(_at_temperature(path, _at_reference(values), build, beyond), build)
+        return ShiftedRubber(_at_temperature(path, at_reference, build, beyond), build)
 
     plain = shifted(build, extrapolation)
     drawn = Drawn(plain, lambda rng: shifted(draw_build(build, rng), "prony"))
     return replace(made, shift=build, at_reference=plain.rubber, drawn_at_reference=drawn)
-
-
-def _at_reference(values: Values) -> Values:
-    return {**values, "temperature_k": values["reference_temperature_k"]}
 
 
 def _at_temperature(

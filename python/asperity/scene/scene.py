@@ -10,9 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from asperity.adhesion import Adhesion
 from asperity.base.arguments import path_of, reading
 from asperity.base.diagnostics import valued
 from asperity.correction import Correction
+from asperity.heating import Heating
 from asperity.io import plausible
 from asperity.io.fields import (
     MOST_ROWS,
@@ -39,12 +41,7 @@ from asperity.scene.keys import (
     temperatures_of,
 )
 from asperity.scene.model import Scene
-from asperity.scene.parts import (
-    Values,
-    build_adhesion,
-    build_correction,
-    build_heating,
-)
+from asperity.scene.parts import Values, build_correction, build_part
 from asperity.scene.rubber import BuiltRubber, build_rubber
 from asperity.scene.surface import Surface, build_surface
 
@@ -174,10 +171,10 @@ def build_scene(
             path, tables["correction"], surface.spectrum, surface.scan, surface.values
         )
     if "adhesion" in tables:
-        adhesion, inputs["adhesion"] = build_adhesion(path, tables["adhesion"])
+        adhesion, inputs["adhesion"] = build_part(path, "adhesion", tables["adhesion"], Adhesion)
     heating = None
     if "heating" in tables:
-        heating, inputs["heating"] = build_heating(path, tables["heating"])
+        heating, inputs["heating"] = build_part(path, "heating", tables["heating"], Heating)
         if temperatures == [None]:  # it may stand in [rubber]
             temperatures = [rubber.temperature]
         check_heated(path, temperatures[0], rubber)

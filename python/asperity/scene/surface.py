@@ -133,7 +133,10 @@ def build_surface(path: Path, table: object, read: Read | None = None) -> Surfac
         derived |= facts
         measured, fit, floor = _measure(path, scans, values)
         scan = scans[0] if len(scans) == 1 else None
-        spectrum: Spectrum = measured if fit is None else _of_fit(path, fit, values)
+        spectrum: Spectrum = measured
+        if fit is not None:  # which may go on beyond what the scan resolves
+            with rename_in_errors(path, names_of("surface", _BAND)):
+                spectrum = fit.spectrum.extended(**arguments(values, _BAND))
     else:
         for key in (*_READ, *_TRANSFORM, *_FIT, *_DIRECTIONAL):
             if key in values:
@@ -174,7 +177,7 @@ def build_surface(path: Path, table: object, read: Read | None = None) -> Surfac
     if fit is not None:
         derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
         notes += _fit_notes(fit, spectrum)
-        of_heights = _height_notes(measured)
+        of_heights = _core.notes_on_heights(measured._core)
         drawn = Drawn[Spectrum](spectrum, partial(_draw_fit, fit, spectrum.q0, spectrum.q1))
     return Surface(spectrum, scan, values, derived, notes, drawn, fit, lay, of_heights)
 
@@ -252,12 +255,6 @@ def _fitted(spectrum: TabulatedSpectrum) -> SelfAffineFit:
         raise error.followed_by("; without fit the measured rows are taken as they are") from error
 
 
-def _of_fit(path: Path, fit: SelfAffineFit, values: Values) -> SelfAffineSpectrum:
-    """The fitted law on the scene's band, which may go on beyond what the scan resolves."""
-    with rename_in_errors(path, names_of("surface", _BAND)):
-        return fit.spectrum.extended(**arguments(values, _BAND))
-
-
 def _draw_fit(fit: SelfAffineFit, q0: float, q1: float, rng: Generator) -> Spectrum:
     return draw_fit(fit, rng, q1).extended(q0=q0, q1=q1)
 
@@ -276,11 +273,6 @@ def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[Note]:
     where = " and ".join(beyond)
     text = f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"
     return [Note(text, code="law-beyond-rows")]
-
-
-def _height_notes(measured: TabulatedSpectrum) -> tuple[Note, ...]:
-    notes: tuple[Note, ...] = _core.notes_on_heights(measured._core)
-    return notes
 
 
 def _noise_notes(floor: float | None, spectrum: Spectrum) -> list[Note]:

@@ -102,10 +102,10 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
         error = _errors(block, axis, others)
         sound = np.isfinite(mu).all(axis=0)
         order = np.argsort(-np.where(np.isfinite(mu), mu, -np.inf), axis=0, kind="stable")
-        first, second = order[0], order[1]
-        lead = _take(mu, first) - _take(mu, second)
-        both = _take(error, first) + _take(error, second)  # else their intervals overlap
-        sure = sound & np.isfinite(both) & (lead > both)
+        first = order[0]
+        best_mu, next_mu = np.take_along_axis(mu, order[:2], axis=0)
+        both = np.take_along_axis(error, order[:2], axis=0).sum(axis=0)
+        sure = sound & np.isfinite(both) & (best_mu - next_mu > both)  # else they overlap
         points += int(sound.sum())
         known += int((sound & np.isfinite(both)).sum())
         total += np.where(sound, mu, 0.0).reshape(count, -1).sum(axis=1)
@@ -138,11 +138,6 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
             for i in by_mean
         ],
     }
-
-
-def _take(values: NDArray[np.float64], index: NDArray[np.int64]) -> NDArray[np.float64]:
-    entries: NDArray[np.float64] = np.take_along_axis(values, index[None], axis=0)[0]
-    return entries
 
 
 def _blocks(dataset: Any, axis: str, others: list[str]) -> Iterator[tuple[Any, dict[str, int]]]:

@@ -141,7 +141,7 @@ def statistics_of(
     boxes = list(_boxes(source.shape))
     anchor = _anchor(source, boxes)
     works = ((source.piece(box), source.shape, corner_of(box), anchor) for box in boxes)
-    sums = _total(workers.outcomes(trend_sums, works))
+    sums = np.sum([*workers.outcomes(trend_sums, works)], axis=0)
     points = math.prod(source.shape)
     missing = (points - sums[0, 0, 0]) / points
     trend = _trend(sums, _TERMS[order])
@@ -220,13 +220,6 @@ def trend_sums(piece: Piece, shape: Shape, corner: Shape, anchor: float) -> Arra
                 rows[1, j, part] = np.add.reduce(z * power, axis=1)
     weights = (v ** np.arange(5)[:, None])[:, None, :]
     total: Array = np.add.reduce(rows[:, None, :, :] * weights, axis=-1)
-    return total
-
-
-def _total(parts: Iterator[Array]) -> Array:
-    total = np.zeros((2, 5, 5))
-    for part in parts:
-        total += part
     return total
 
 
