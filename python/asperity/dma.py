@@ -282,7 +282,7 @@ def draw_master_curve(build: MasterCurveBuild, seed: int) -> MasterCurveBuild:
     has the extrapolation of the build's, or a power law, and reaches further at both ends: drawn
     shifts move what was measured, and a draw is to answer wherever the build's curve does.
     """
-    parts = _core.draw_master_curve(*_parts(build), seed)
+    parts = _core.draw_master_curve(_parts(build), seed)
     return _built(parts, build.master_curve.extrapolation or "power-law")
 
 
@@ -291,7 +291,7 @@ def master_curve_modes(
 ) -> tuple[Array, Array, Array]:
     """Return what the independent unit normals behind a draw change to first order, a row each: ln
     E' and ln E'' at these frequencies [rad/s], and log10 a_T of the isotherms."""
-    result: tuple[Array, Array, Array] = _core.master_curve_modes(*_parts(build), angular_frequency)
+    result: tuple[Array, Array, Array] = _core.master_curve_modes(_parts(build), angular_frequency)
     return result
 
 

@@ -26,9 +26,10 @@ WINDOWS, PARTS = map(get_args, (Window, Part))
 NO_DIRECTIONS = " = True: a line scan knows no directions"
 
 
-def prepared(window: Window, detrend: Detrend | None) -> tuple[int, int]:
+def prepared(window: Window, detrend: Detrend | None) -> tuple[int, int | None]:
     """Return the numbers of a window and of a trend in the core."""
-    return choice(window, "window", WINDOWS), choice(detrend, "detrend", (*DETRENDS, None))
+    trend = choice(detrend, "detrend", (*DETRENDS, None))
+    return choice(window, "window", WINDOWS), None if detrend is None else trend
 
 
 def core_map(surface: Any) -> Any:

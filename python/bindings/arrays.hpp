@@ -7,6 +7,7 @@
 
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -63,3 +64,24 @@ py::tuple tuple_of(const std::vector<Diagnostic>& notes);
 std::vector<Diagnostic> notes_of(const py::iterable& notes);
 
 }  // namespace asperity::python
+
+namespace pybind11::detail {
+/// An enumerator of the core from its number.
+template <class Enum>
+struct type_caster_enum_type_enabled<Enum, std::enable_if_t<std::is_enum_v<Enum>>> : std::false_type {};
+template <class Enum>
+struct type_caster<Enum, std::enable_if_t<std::is_enum_v<Enum>>> {
+  static constexpr auto name = const_name("int");
+  template <class>
+  using cast_op_type = Enum;
+
+  bool load(handle from, bool) {
+    value_ = static_cast<Enum>(from.cast<int>());
+    return true;
+  }
+  operator Enum() const { return value_; }  // NOLINT: pybind11 asks for a conversion
+
+ private:
+  Enum value_{};
+};
+}  // namespace pybind11::detail

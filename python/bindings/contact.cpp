@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "arrays.hpp"
@@ -28,7 +29,7 @@ void bind_over_wavenumber(py::module_& m, const char* name, OverWavenumber funct
 
 /// (d~, d, states) for pairs of pressure and modulus; states as 0 no contact, 1 partial, 2 full.
 py::tuple separations(const Array& pressure, const Array& modulus, double rms_height, double q0, const Array& peaks,
-                      int reading, std::optional<double> z_max, std::optional<double> z_min) {
+                      Reading reading, std::optional<double> z_max, std::optional<double> z_min) {
   const std::span<const double> p = span_of(pressure), e = span_of(modulus);
   const MacroAsperities asperities{rms_height, q0, span_of(peaks)};
   std::vector<double> effective(p.size()), rigid(p.size());
@@ -36,7 +37,7 @@ py::tuple separations(const Array& pressure, const Array& modulus, double rms_he
   released([&] {
     for (std::size_t i = 0; i < p.size(); ++i) {
       heed();
-      const Separation d = separation(asperities, p[i], e[i], static_cast<Reading>(reading));
+      const Separation d = separation(asperities, p[i], e[i], reading);
       effective[i] = d.effective;
       rigid[i] = d.rigid;
       if (z_max && z_min) state[i] = static_cast<int>(contact_state(d.effective, *z_max, *z_min));
@@ -45,69 +46,52 @@ py::tuple separations(const Array& pressure, const Array& modulus, double rms_he
   return py::make_tuple(array_of(std::move(effective)), array_of(std::move(rigid)), array_of(std::move(state)));
 }
 
-constexpr py::ssize_t solved_columns = 25;
+/// Of a row a contact, in the order of `COLUMNS` in scan_contact.py.
+using Solved = SolvedContact;
+constexpr std::tuple solved_columns{&Solved::rubber,
+                                    &Solved::heat,
+                                    &Solved::strain,
+                                    &Solved::poisson_ratio,
+                                    &Solved::q0,
+                                    &Solved::q1,
+                                    &Solved::part,
+                                    &Solved::coarse,
+                                    &Solved::pressure,
+                                    &Solved::velocity,
+                                    &Solved::direction,
+                                    &Solved::contact_area,
+                                    &Solved::hysteresis,
+                                    &Solved::lateral,
+                                    &Solved::rule_area,
+                                    &Solved::rule_hysteresis,
+                                    &Solved::error,
+                                    &Solved::seconds,
+                                    &Solved::points_y,
+                                    &Solved::points_x,
+                                    &Solved::contact_points,
+                                    &Solved::interpolation,
+                                    &Solved::pixels,
+                                    &Solved::scan,
+                                    &Solved::joining};
+constexpr std::size_t solved_count = std::tuple_size_v<decltype(solved_columns)>;
 
-/// A row a contact, in the order of `COLUMNS` in scan_contact.py.
 py::array contact_rows(const ScanContact& scan) {
-  const std::vector<SolvedContact> contacts = scan.contacts();
+  const std::vector<Solved> contacts = scan.contacts();
   std::vector<double> rows;
-  for (const SolvedContact& c : contacts)
-    rows.insert(rows.end(), {static_cast<double>(c.rubber),
-                             static_cast<double>(c.heat),
-                             static_cast<double>(c.strain),
-                             c.poisson_ratio,
-                             c.q0,
-                             c.q1,
-                             static_cast<double>(c.part),
-                             c.coarse ? 1.0 : 0.0,
-                             c.pressure,
-                             c.velocity,
-                             c.direction,
-                             c.contact_area,
-                             c.hysteresis,
-                             c.lateral,
-                             c.rule_area,
-                             c.rule_hysteresis,
-                             c.error,
-                             c.seconds,
-                             static_cast<double>(c.points_y),
-                             static_cast<double>(c.points_x),
-                             c.contact_points,
-                             c.interpolation,
-                             c.pixels,
-                             c.scan,
-                             c.joining});
-  return array_of(std::move(rows), {static_cast<py::ssize_t>(contacts.size()), solved_columns});
+  for (const Solved& c : contacts)
+    std::apply([&](auto... column) { (rows.push_back(static_cast<double>(c.*column)), ...); }, solved_columns);
+  return array_of(std::move(rows), {static_cast<py::ssize_t>(contacts.size()), solved_count});
+}
+
+template <class Member>
+void set(Solved& contact, Member Solved::*column, double number) {
+  contact.*column = static_cast<Member>(number);
 }
 
 void add_contacts(ScanContact& scan, const Array& rows) {
-  const double* r = rows.data();
-  for (py::ssize_t i = 0; i < rows.size() / solved_columns; ++i, r += solved_columns) {
-    const SolvedContact c{.rubber = static_cast<std::uint64_t>(r[0]),
-                          .heat = static_cast<std::uint64_t>(r[1]),
-                          .strain = static_cast<std::uint64_t>(r[2]),
-                          .poisson_ratio = r[3],
-                          .q0 = r[4],
-                          .q1 = r[5],
-                          .part = static_cast<int>(r[6]),
-                          .coarse = r[7] != 0,
-                          .pressure = r[8],
-                          .velocity = r[9],
-                          .direction = r[10],
-                          .contact_area = r[11],
-                          .hysteresis = r[12],
-                          .lateral = r[13],
-                          .rule_area = r[14],
-                          .rule_hysteresis = r[15],
-                          .error = r[16],
-                          .seconds = r[17],
-                          .points_y = static_cast<std::size_t>(r[18]),
-                          .points_x = static_cast<std::size_t>(r[19]),
-                          .contact_points = r[20],
-                          .interpolation = r[21],
-                          .pixels = r[22],
-                          .scan = r[23],
-                          .joining = r[24]};
+  for (const double* number = rows.data(); number != rows.data() + rows.size();) {
+    Solved c;
+    std::apply([&](auto... column) { (set(c, column, *number++), ...); }, solved_columns);
     scan.add({&c, 1});
   }
 }
@@ -132,8 +116,8 @@ class WatchedContacts {
 
 void bind_corrections(py::module_& m) {
   py::classh<ScanContact>(m, "ScanContact")
-      .def(py::init([](const HeightMap& map, int continuation, double tolerance) {
-        return released([&] { return ScanContact(map, static_cast<Continuation>(continuation), tolerance); });
+      .def(py::init([](const HeightMap& map, Continuation continuation, double tolerance) {
+        return released([&] { return ScanContact(map, continuation, tolerance); });
       }))
       .def("contacts", &contact_rows)
       .def("add", &add_contacts);

@@ -14,11 +14,10 @@ namespace asperity::python {
 
 namespace {
 
+using Vector = std::vector<double>;
+
 void bind_shift_factors(py::module_& m) {
-  py::classh<ShiftTable>(m, "ShiftFactors")
-      .def(py::init([](double reference, const Array& temperature, const Array& log10_a_T, const Array& deviation) {
-        return ShiftTable(reference, vector_of(temperature), vector_of(log10_a_T), vector_of(deviation));
-      }))
+  bind_made<ShiftTable, double, Vector, Vector, Vector>(m, "ShiftFactors")
       .def("reference_temperature", &ShiftTable::reference)
       .def("temperature", [](const ShiftTable& s) { return array_of(s.temperature()); })
       .def("log10_a_T", [](const ShiftTable& s) { return array_of(s.log10_a_T()); })
@@ -75,15 +74,8 @@ void bind_sweeps(py::module_& m) {
       .def("storage_modulus", [](const Isotherm& s) { return array_of(s.storage_modulus()); })
       .def("loss_modulus", [](const Isotherm& s) { return array_of(s.loss_modulus()); })
       .def("notes", [](const Isotherm& s) { return tuple_of(s.notes()); });
-  py::classh<StrainSweep>(m, "StrainSweep")
-      .def(py::init([](double temperature, double angular_frequency, const Array& strain, const Array& storage,
-                       const Array& loss) {
-        return StrainSweep(temperature, angular_frequency, vector_of(strain), vector_of(storage), vector_of(loss));
-      }));
-  py::classh<StrainFactors>(m, "StrainFactors")
-      .def(py::init([](const Array& strain, const Array& storage, const Array& loss, double strain_per_slope) {
-        return StrainFactors(vector_of(strain), vector_of(storage), vector_of(loss), strain_per_slope);
-      }));
+  bind_made<StrainSweep, double, double, Vector, Vector, Vector>(m, "StrainSweep");
+  bind_made<StrainFactors, Vector, Vector, Vector, double>(m, "StrainFactors");
 }
 
 /// (master curve, shift factors, b_T, columns of the points, residual, covariance, notes)
@@ -104,44 +96,43 @@ py::tuple parts_of(MasterCurveBuild build) {
                         build.residual, covariance, tuple_of(build.notes));
 }
 
-py::tuple built(const std::vector<Isotherm>& isotherms, double reference_temperature, int vertical_shift,
-                const Array& b_T, const ShiftTable* shift_factors, bool smooth, std::optional<int> extrapolation) {
-  MasterCurveOptions options{.reference_temperature = reference_temperature,
-                             .vertical_shift = static_cast<VerticalShift>(vertical_shift),
-                             .b_T = vector_of(b_T),
-                             .smooth = smooth};
-  if (shift_factors != nullptr) options.shift_table = *shift_factors;
-  if (extrapolation) options.extrapolation = static_cast<Extrapolation>(*extrapolation);
+py::tuple built(const std::vector<Isotherm>& isotherms, double reference_temperature, VerticalShift vertical_shift,
+                const Array& b_T, const std::optional<ShiftTable>& shift_factors, bool smooth,
+                std::optional<Extrapolation> extrapolation) {
+  const MasterCurveOptions options{.reference_temperature = reference_temperature,
+                                   .vertical_shift = vertical_shift,
+                                   .b_T = vector_of(b_T),
+                                   .shift_table = shift_factors,
+                                   .smooth = smooth,
+                                   .extrapolation = extrapolation};
   return parts_of(released([&] { return build_master_curve(isotherms, options); }));
 }
 
-MasterCurveBuild build_of(const MasterCurve& curve, const ShiftTable& shifts, const Array& b_T, const Array& w,
-                          const Array& storage, const Array& loss, const py::array_t<std::int64_t>& isotherm,
-                          double residual, const Array& covariance) {
+/// A build as `_parts` in dma.py gives it.
+using Parts = std::tuple<MasterCurve, ShiftTable, Array, Array, Array, Array, py::array_t<std::int64_t>, double, Array>;
+
+MasterCurveBuild build_of(const Parts& parts) {
+  const auto& [curve, shifts, b_T, w, storage, loss, isotherm, residual, covariance] = parts;
   MasterCurveBuild build{curve, shifts, vector_of(b_T), {}, residual, vector_of(covariance), {}};
   for (py::ssize_t i = 0; i < w.size(); ++i)
     build.points.push_back({w.at(i), storage.at(i), loss.at(i), static_cast<std::size_t>(isotherm.at(i))});
   return build;
 }
 
-py::tuple drawn(const MasterCurve& curve, const ShiftTable& shifts, const Array& b_T, const Array& w,
-                const Array& storage, const Array& loss, const py::array_t<std::int64_t>& isotherm, double residual,
-                const Array& covariance, std::uint64_t seed) {
-  const MasterCurveBuild build = build_of(curve, shifts, b_T, w, storage, loss, isotherm, residual, covariance);
+py::tuple drawn(const Parts& parts, std::uint64_t seed) {
+  const MasterCurveBuild build = build_of(parts);
   return parts_of(released([&] { return draw_master_curve(build, seed); }));
 }
 
 /// (ln E', ln E'', log10 a_T), a row a mode
-py::tuple modes(const MasterCurve& curve, const ShiftTable& shifts, const Array& b_T, const Array& w,
-                const Array& storage, const Array& loss, const py::array_t<std::int64_t>& isotherm, double residual,
-                const Array& covariance, const Array& angular_frequency) {
-  const MasterCurveBuild build = build_of(curve, shifts, b_T, w, storage, loss, isotherm, residual, covariance);
+py::tuple modes(const Parts& parts, const Array& angular_frequency) {
+  const MasterCurveBuild build = build_of(parts);
   const std::vector<double> rows = vector_of(angular_frequency);
   MasterCurveModes found = released([&] { return master_curve_modes(build, rows); });
   const auto count = static_cast<py::ssize_t>(found.count);
   return py::make_tuple(array_of(std::move(found.storage), {count, angular_frequency.size()}),
                         array_of(std::move(found.loss), {count, angular_frequency.size()}),
-                        array_of(std::move(found.log10_a_T), {count, b_T.size()}));
+                        array_of(std::move(found.log10_a_T), {count, std::get<2>(parts).size()}));
 }
 
 /// (series, residual of E', residual of E'', causal, notes)

@@ -44,10 +44,10 @@ py::tuple friction_of(const Spectrum& spectrum, const Rubber& rubber, const Cont
 py::tuple flash_friction_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                             const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
                             bool contributions, unsigned threads, const TemperatureShift& shift,
-                            const Array& temperature, const Heating& heating, int branch) {
+                            const Array& temperature, const Heating& heating, Branch branch) {
   FlashFriction f = released([&] {
     return friction(spectrum, rubber, shift, heating, model, adhesion, span_of(pressure), span_of(velocity),
-                    span_of(temperature), static_cast<Branch>(branch), contributions, threads);
+                    span_of(temperature), branch, contributions, threads);
   });
   py::array hottest = array_of(std::move(f.hot.temperature));
   return py::make_tuple(parts_of(std::move(f.hot)), parts_of(std::move(f.cold)), hottest,
@@ -59,12 +59,12 @@ py::tuple flash_friction_of(const Spectrum& spectrum, const Rubber& rubber, cons
 py::tuple gradients_of(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                        const std::optional<Adhesion>& adhesion, const Array& pressure, const Array& velocity,
                        unsigned threads, const std::optional<TemperatureShift>& shift,
-                       const std::optional<Array>& temperature, const std::optional<Heating>& heating, int branch) {
+                       const std::optional<Array>& temperature, const std::optional<Heating>& heating, Branch branch) {
   Gradients g = released([&] {
     const auto p = span_of(pressure), v = span_of(velocity);
     if (heating)
-      return gradients(spectrum, rubber, *shift, *heating, model, adhesion, p, v, span_of(*temperature),
-                       static_cast<Branch>(branch), threads);
+      return gradients(spectrum, rubber, *shift, *heating, model, adhesion, p, v, span_of(*temperature), branch,
+                       threads);
     return shift ? gradients(spectrum, rubber, *shift, model, adhesion, p, v, span_of(*temperature), threads)
                  : gradients(spectrum, rubber, model, adhesion, p, v, threads);
   });

@@ -45,20 +45,18 @@ py::bytes build(const Spectrum& spectrum, const Rubber& rubber, const ContactMod
   return {reinterpret_cast<const char*>(file.data()), file.size()};
 }
 
-/// Points to look up: columns as long as the result, or of one entry for all; temperature and distance or none.
+/// Pressure, velocity, a_T, and temperature, distance and direction or None, as `_query` in look_up.py has them.
+using Given = std::tuple<Array, Array, Array, std::optional<Array>, std::optional<Array>, std::optional<Array>>;
+
+/// Points to look up: columns as long as the result, or of one entry for all.
 struct Points {
   MapColumns columns;
   std::size_t size;
 
-  Points(const Array& p, const Array& v, const Array& a_T, const std::optional<Array>& background,
-         const std::optional<Array>& distance, const std::optional<Array>& direction)
-      : columns{span_of(p),
-                span_of(v),
-                span_of(a_T),
-                background ? span_of(*background) : std::span<const double>{},
-                distance ? span_of(*distance) : std::span<const double>{},
-                direction ? span_of(*direction) : std::span<const double>{}},
-        size(0) {
+  explicit Points(const Given& given) : columns{}, size(0) {
+    const auto& [p, v, a_T, background, distance, direction] = given;
+    const auto span_if = [](const auto& column) { return column ? span_of(*column) : std::span<const double>{}; };
+    columns = {span_of(p), span_of(v), span_of(a_T), span_if(background), span_if(distance), span_if(direction)};
     for (const auto& column :
          {columns.pressure, columns.velocity, columns.a_T, columns.background, columns.distance, columns.direction})
       size = std::max(size, column.size());
@@ -79,29 +77,24 @@ struct Points {
 
 /// (one number at each point, the first point without a value or how many points there are).
 template <MapQuantity quantity>
-py::tuple column_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
-                    const std::optional<Array>& background, const std::optional<Array>& distance,
-                    const std::optional<Array>& direction, bool shifts_adhesion, int outside) {
-  const Points points(p, v, a_T, background, distance, direction);
+py::tuple column_of(const FrictionMap& map, const Given& given, bool shifts_adhesion, Outside outside) {
+  const Points points(given);
   // not cleared: of 1e8 points that takes a second in which no signal is heeded
   py::array_t<double> found(static_cast<py::ssize_t>(points.size));
   const std::span<double> to(found.mutable_data(), points.size);
-  const std::size_t first = released(
-      [&] { return look_up(quantity, map, points.columns, static_cast<Outside>(outside), shifts_adhesion, to); });
+  const std::size_t first =
+      released([&] { return look_up(quantity, map, points.columns, outside, shifts_adhesion, to); });
   return py::make_tuple(found, first);
 }
 
 /// (dmu_dlnp, dmu_dlnv: a row each; the first point without them).
-py::tuple slopes_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
-                    const std::optional<Array>& background, const std::optional<Array>& distance,
-                    const std::optional<Array>& direction, bool shifts_adhesion, int outside) {
-  const Points points(p, v, a_T, background, distance, direction);
+py::tuple slopes_of(const FrictionMap& map, const Given& given, bool shifts_adhesion, Outside outside) {
+  const Points points(given);
   const std::size_t n = points.size;
   py::array_t<double> found({std::size_t{2}, n});
   const std::span<double> to(found.mutable_data(), 2 * n);
-  const std::size_t first = released([&] {
-    return look_up_slopes(map, points.columns, static_cast<Outside>(outside), shifts_adhesion, to.first(n), to.last(n));
-  });
+  const std::size_t first =
+      released([&] { return look_up_slopes(map, points.columns, outside, shifts_adhesion, to.first(n), to.last(n)); });
   return py::make_tuple(found, first);
 }
 
@@ -124,27 +117,20 @@ py::tuple rows_of(const Points& points, const Numbers& numbers) {
 }
 
 /// (mu, hysteresis, adhesion, area, dmu_dlnp, dmu_dlnv, lateral: a row each; the first point without a value).
-py::tuple points_of(const FrictionMap& map, const Array& p, const Array& v, const Array& a_T,
-                    const std::optional<Array>& background, const std::optional<Array>& distance,
-                    const std::optional<Array>& direction, bool shifts_adhesion, int outside) {
-  const Points points(p, v, a_T, background, distance, direction);
+py::tuple points_of(const FrictionMap& map, const Given& given, bool shifts_adhesion, Outside outside) {
+  const Points points(given);
   return rows_of<7>(points, [&](std::size_t i) {
     MapPoint at;
-    map.at(points.pressure(i), points.velocity(i), at, static_cast<Outside>(outside),
-           points.temperature(i, shifts_adhesion));
+    map.at(points.pressure(i), points.velocity(i), at, outside, points.temperature(i, shifts_adhesion));
     return std::array{at.mu, at.hysteresis, at.adhesion, at.contact_area, at.dmu_dlnp, at.dmu_dlnv, at.lateral};
   });
 }
 
 /// A row of s0 over velocity and temperature.
-py::tuple sliding_length_of(const FrictionMap& map, const Array& v, const std::optional<Array>& background,
-                            int outside) {
-  const double one = 1;
-  Points points(v, v, v, background, {}, {});
-  points.columns.a_T = {&one, 1};
+py::tuple sliding_length_of(const FrictionMap& map, const Given& given, bool /*shifts_adhesion*/, Outside outside) {
+  const Points points(given);
   return rows_of<1>(points, [&](std::size_t i) {
-    return std::array{
-        map.sliding_length(points.velocity(i), points.temperature(i, false).background, static_cast<Outside>(outside))};
+    return std::array{map.sliding_length(points.velocity(i), points.temperature(i, false).background, outside)};
   });
 }
 
@@ -192,10 +178,9 @@ void bind_friction_map(py::module_& m) {
       .def("points", &points_of)
       .def("sliding_length", &sliding_length_of)
       .def("status", [](const FrictionMap& map, double p, double v, double a_T, double background, double distance,
-                        double direction, bool shifts_adhesion, int outside) {
+                        double direction, bool shifts_adhesion, Outside outside) {
         MapPoint at;
-        return static_cast<int>(
-            map.at(p, v, at, static_cast<Outside>(outside), {a_T, shifts_adhesion, background, distance, direction}));
+        return static_cast<int>(map.at(p, v, at, outside, {a_T, shifts_adhesion, background, distance, direction}));
       });
   m.def("build_friction_map", &build);
 }

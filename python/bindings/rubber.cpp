@@ -9,6 +9,7 @@
 
 #include "arrays.hpp"
 #include "topics.hpp"
+#include "value.hpp"
 
 namespace asperity::python {
 
@@ -90,12 +91,8 @@ py::array effective_moduli(const Array& modulus, const Array& poisson_ratio, con
 }  // namespace
 
 void bind_rubber(py::module_& m) {
-  py::classh<PronySeries> prony(m, "PronySeries");
-  prony
-      .def(py::init([](double equilibrium_modulus, const Array& moduli, const Array& times) {
-        return PronySeries(equilibrium_modulus, vector_of(moduli), vector_of(times));
-      }))
-      .def("equilibrium_modulus", &PronySeries::equilibrium_modulus)
+  auto prony = bind_made<PronySeries, double, std::vector<double>, std::vector<double>>(m, "PronySeries");
+  prony.def("equilibrium_modulus", &PronySeries::equilibrium_modulus)
       .def("moduli", [](const PronySeries& series) { return array_of(series.moduli()); })
       .def("relaxation_times", [](const PronySeries& series) { return array_of(series.relaxation_times()); })
       .def("fitted_on",
@@ -112,9 +109,7 @@ void bind_rubber(py::module_& m) {
 
   py::classh<MasterCurve> curve(m, "MasterCurve");
   curve
-      .def(py::init([](const Array& w, const Array& storage, const Array& loss, std::optional<int> extrapolation) {
-        std::optional<Extrapolation> beyond;
-        if (extrapolation) beyond = static_cast<Extrapolation>(*extrapolation);
+      .def(py::init([](const Array& w, const Array& storage, const Array& loss, std::optional<Extrapolation> beyond) {
         return released([&] { return MasterCurve(vector_of(w), vector_of(storage), vector_of(loss), beyond); });
       }))
       .def("angular_frequency", [](const MasterCurve& c) { return array_of(c.angular_frequency()); })

@@ -11,8 +11,9 @@ namespace {
 
 /// ((dy, dx), areas, friction by both ways, energy, error, pressure, gap, notes).
 py::tuple slide_of(const HeightMap& map, const Rubber& rubber, double pressure, double velocity, double poisson_ratio,
-                   int continuation, double rtol, double time_limit, double direction, const py::object& told) {
-  SlidingModel model{poisson_ratio, static_cast<Continuation>(continuation), rtol, time_limit, direction};
+                   Continuation continuation, double rtol, double time_limit, double direction,
+                   const py::object& told) {
+  SlidingModel model{poisson_ratio, continuation, rtol, time_limit, direction};
   if (!told.is_none())
     model.progress = [&told](const SlidingStep& at) {
       const py::gil_scoped_acquire held;
@@ -29,8 +30,8 @@ py::tuple slide_of(const HeightMap& map, const Rubber& rubber, double pressure, 
 
 void bind_sliding(py::module_& m) {
   m.def("slide", &slide_of);
-  m.def("continued", [](const HeightMap& map, int continuation) {
-    return released([&] { return continued(map, static_cast<Continuation>(continuation)); });
+  m.def("continued", [](const HeightMap& map, Continuation continuation) {
+    return released([&] { return continued(map, continuation); });
   });
 }
 

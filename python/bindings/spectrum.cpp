@@ -14,10 +14,7 @@ namespace {
 using Optional = std::optional<double>;
 using Guarded = py::call_guard<Released>;
 
-/// The order of detrending; the number after the last one stands for none.
-std::optional<Detrend> detrend_of(int order) {
-  return order > static_cast<int>(Detrend::quadratic) ? std::nullopt : std::optional(static_cast<Detrend>(order));
-}
+using Trend = std::optional<Detrend>;
 
 py::object object_of(Spectrum spectrum) {
   return std::visit([](auto& one) { return py::cast(std::move(one)); }, spectrum);
@@ -80,8 +77,7 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
       .def_property_readonly(
           "curvature_kurtosis",
           [](const S& s) { return s.quality().heights ? s.quality().heights->curvature_kurtosis : std::nullopt; })
-      .def(
-          "log_binned", [](const S& s, double per_decade) { return log_binned(s, per_decade); }, Guarded());
+      .def("log_binned", py::overload_cast<const S&, double>(&log_binned), Guarded());
 }
 
 /// Harmonics of rows, (n, m), or None.
@@ -117,44 +113,24 @@ void bind_moments(py::module_& m) {
 }
 
 void bind_measured(py::module_& m) {
-  m.def(
-      "power_spectrum",
-      [](const HeightMap& map, int window, int detrend, unsigned threads, int part) {
-        return power_spectrum(map, static_cast<Window>(window), detrend_of(detrend), threads, static_cast<Part>(part));
-      },
-      Guarded());
-  m.def(
-      "directional_spectrum",
-      [](const HeightMap& map, int window, int detrend, unsigned threads) {
-        return directional_spectrum(map, static_cast<Window>(window), detrend_of(detrend), threads);
-      },
-      Guarded());
-  m.def("tile_covariances", [](int window, HeightMap::Shape tile, HeightMap::PixelSize pixel_size,
-                               HeightMap::Shape shift) {
-    return array_of(released([&] { return tile_covariances(static_cast<Window>(window), tile, pixel_size, shift); }));
-  });
-  m.def("spectral_density", [](const HeightMap& map, int window, int detrend) {
-    SpectralDensity found =
-        released([&] { return spectral_density(map, static_cast<Window>(window), detrend_of(detrend)); });
+  m.def("power_spectrum", &power_spectrum, Guarded());
+  m.def("directional_spectrum", &directional_spectrum, Guarded());
+  m.def("tile_covariances",
+        [](Window window, HeightMap::Shape tile, HeightMap::PixelSize pixel_size, HeightMap::Shape shift) {
+          return computed([&] { return tile_covariances(window, tile, pixel_size, shift); });
+        });
+  m.def("spectral_density", [](const HeightMap& map, Window window, Trend detrend) {
+    SpectralDensity found = released([&] { return spectral_density(map, window, detrend); });
     const auto ny = static_cast<py::ssize_t>(map.shape()[0]), nx = static_cast<py::ssize_t>(map.shape()[1]);
     return py::make_tuple(array_of(std::move(found.wavenumber_y)), array_of(std::move(found.wavenumber_x)),
                           array_of(std::move(found.density), {ny, nx}));
   });
-  m.def("anisotropy", [](const HeightMap& map, int window, int detrend, Optional q_min, Optional q_max) {
-    const Anisotropy found =
-        released([&] { return anisotropy(map, static_cast<Window>(window), detrend_of(detrend), q_min, q_max); });
+  m.def("anisotropy", [](const HeightMap& map, Window window, Trend detrend, Optional q_min, Optional q_max) {
+    const Anisotropy found = released([&] { return anisotropy(map, window, detrend, q_min, q_max); });
     return py::make_tuple(found.across, found.along, found.direction);
   });
-  const auto line = [&m]<class S>(std::type_identity<S>) {
-    m.def(
-        "line_spectrum",
-        [](const S& surface, int window, int detrend, int part) {
-          return line_spectrum(surface, static_cast<Window>(window), detrend_of(detrend), static_cast<Part>(part));
-        },
-        Guarded());
-  };
-  line(std::type_identity<LineScan>());
-  line(std::type_identity<HeightMap>());
+  m.def("line_spectrum", py::overload_cast<const LineScan&, Window, Trend, Part>(&line_spectrum), Guarded());
+  m.def("line_spectrum", py::overload_cast<const HeightMap&, Window, Trend, Part>(&line_spectrum), Guarded());
   m.def(
       "merge_spectra",
       [](const std::vector<TabulatedSpectrum>& spectra, Optional per_decade) {
@@ -202,19 +178,14 @@ void bind_spectrum(py::module_& m) {
   bind_rows<LineSpectrum>(m, "LineSpectrum").def("isotropic", &isotropic, Guarded());
   bind_moments(m);
   bind_measured(m);
-  m.def("fit_self_affine",
-        [](const TabulatedSpectrum& spectrum, Optional q_min, Optional q_max, int method, int rolloff) {
-          const FitOptions options{q_min, q_max, static_cast<FitMethod>(method), static_cast<Rolloff>(rolloff)};
-          const SelfAffineFit fit = released([&] { return fit_self_affine(spectrum, options); });
-          std::vector<double> covariance;
-          for (const auto& row : fit.covariance) covariance.insert(covariance.end(), row.begin(), row.end());
-          return py::make_tuple(fit.spectrum, array_of(std::move(covariance), {3, 3}), fit.residual, fit.rows);
-        });
-  m.def(
-      "synthesize",
-      [](const Spectrum& spectrum, HeightMap::Shape shape, HeightMap::PixelSize pixel_size, std::uint64_t seed,
-         double skewness) { return synthesize(spectrum, shape, pixel_size, seed, skewness); },
-      Guarded());
+  m.def("fit_self_affine", [](const TabulatedSpectrum& spectrum, Optional q_min, Optional q_max, FitMethod method,
+                              Rolloff rolloff) {
+    const SelfAffineFit fit = released([&] { return fit_self_affine(spectrum, {q_min, q_max, method, rolloff}); });
+    std::vector<double> covariance;
+    for (const auto& row : fit.covariance) covariance.insert(covariance.end(), row.begin(), row.end());
+    return py::make_tuple(fit.spectrum, array_of(std::move(covariance), {3, 3}), fit.residual, fit.rows);
+  });
+  m.def("synthesize", &synthesize, Guarded());
 }
 
 }  // namespace asperity::python

@@ -63,8 +63,7 @@ void bind_scan(py::classh<S>& cls) {
              return py::make_tuple(array_of(std::move(found.edges)), array_of(std::move(found.density)));
            })
       .def("fill_dropouts", &S::fill_dropouts, Guarded())
-      .def(
-          "detrend", [](const S& s, int order) { return s.detrend(static_cast<Detrend>(order)); }, Guarded())
+      .def("detrend", &S::detrend, Guarded())
       .def("affine_shift", &S::affine_shift, Guarded())
       .def("local_peaks", [](const S& s, double min_distance, bool periodic) {
         return computed([&] { return s.local_peaks(min_distance, periodic); });

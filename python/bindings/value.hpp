@@ -1,4 +1,4 @@
-// Classes that Python makes of a struct's members, in their order; the core checks what was made.
+// Classes that Python makes of a struct's members, or of a constructor's parts; the core checks what was made.
 #pragma once
 
 #include <type_traits>
@@ -9,16 +9,13 @@
 
 namespace asperity::python {
 
-/// What Python passes for a member: the number of an enumerator, an array for a vector, else the member itself.
+/// What Python passes for a member: an array for a vector, else the member itself.
 template <class Member>
-using Passed = std::conditional_t<std::is_enum_v<Member>, int,
-                                  std::conditional_t<std::is_same_v<Member, std::vector<double>>, Array, Member>>;
+using Passed = std::conditional_t<std::is_same_v<Member, std::vector<double>>, Array, Member>;
 
 template <class Member>
 Member member_of(const Passed<Member>& given) {
-  if constexpr (std::is_enum_v<Member>)
-    return static_cast<Member>(given);
-  else if constexpr (std::is_same_v<Member, std::vector<double>>)
+  if constexpr (std::is_same_v<Member, std::vector<double>>)
     return vector_of(given);
   else
     return given;
@@ -31,6 +28,13 @@ py::classh<Value> bind_value(py::module_& m, const char* name, Members Value::*.
     validate(made);
     return made;
   }));
+}
+
+/// A class whose constructor takes what `Passed` says of these types.
+template <class Made, class... Parts>
+py::classh<Made> bind_made(py::module_& m, const char* name) {
+  return py::classh<Made>(m, name).def(
+      py::init([](const Passed<Parts>&... given) { return Made(member_of<Parts>(given)...); }));
 }
 
 }  // namespace asperity::python

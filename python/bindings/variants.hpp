@@ -8,6 +8,7 @@
 #include <tuple>
 #include <variant>
 
+#include "arrays.hpp"
 #include "asperity/contact.hpp"
 #include "asperity/dma.hpp"
 #include "asperity/rubber.hpp"
@@ -47,13 +48,10 @@ struct ModelOfTuple {
 
   bool load(pybind11::handle from, bool) {
     auto [poisson_ratio, correction, form, rtol, method, strain_factors, direction] = from.cast<
-        std::tuple<double, std::optional<Correction>, int, double, int, std::optional<StrainFactors>, double>>();
-    model_ = {poisson_ratio,
-              correction ? *std::move(correction) : NoCorrection{},
-              static_cast<Form>(form),
-              rtol,
-              static_cast<Method>(method),
-              std::move(strain_factors),
+        std::tuple<double, std::optional<Correction>, Form, double, Method, std::optional<StrainFactors>, double>>();
+    model_ = {poisson_ratio, correction ? *std::move(correction) : NoCorrection{},
+              form,          rtol,
+              method,        std::move(strain_factors),
               direction};
     return true;
   }

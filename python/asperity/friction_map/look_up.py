@@ -304,7 +304,7 @@ class FrictionMap(Table):
             real_array(velocity, "velocity")
             return None
         middle = {"pressure": self.pressure[0], "velocity": velocity, "a_T": 1.0}
-        given = middle | {"temperature": temperature, "distance": None}
+        given = middle | {"temperature": temperature, "distance": None, "direction": None}
         return self._query("sliding_length", given, False, outside)[0]
 
     def _query(
@@ -321,12 +321,8 @@ class FrictionMap(Table):
         self._check(asked, shifts)
         shape, flat = _columns_of(**asked)
         columns = dict(zip(asked, flat, strict=True))
-        ordered = [columns.get(key) for key in given]
         options = shifts, _CLAMP if policy == 2 else _NAN
-        if name == "sliding_length":
-            result, first = self._core.sliding_length(ordered[1], ordered[3], options[1])
-        else:
-            result, first = getattr(self._core, name)(*ordered, *options)
+        result, first = getattr(self._core, name)([columns.get(key) for key in given], *options)
         if policy != 1 and first < result.shape[-1]:
             point = {
                 key: column[first if np.size(column) > 1 else 0].item()

@@ -30,7 +30,7 @@ def tiled_spectrum(
     grid: Grid,
     *,
     window: int,
-    detrend: int,
+    detrend: int | None,
     max_dropouts: Any,
     workers: Workers,
 ) -> TabulatedSpectrum:
