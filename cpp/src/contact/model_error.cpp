@@ -88,7 +88,7 @@ ModelError::ModelError(const Correction& correction, const Spectrum& spectrum, c
   if (!tables) return;
   const TabulatedSpectrum* const ridges = harmonics_of(spectrum);
   if (ridges) {
-    const Rings mean = Directions(*ridges, SurfaceSegments(spectrum).get(), 0).mean();
+    const Rings mean = Directions(*ridges, 0).mean();
     const bool partial = std::holds_alternative<PartialContact>(correction);
     if (!(partial || tables == &no_correction) || std::hypot(mean.along[0], mean.across[0]) > strongest) return;
     if (q1 < q0 * narrowest_on_ridges * (1 - rounding) || q1 > q0 * road * (1 + rounding)) return;

@@ -12,12 +12,18 @@
 
 namespace asperity {
 
+/// The harmonics of all rings of a table: their means by slope variance, and how large each is at most.
+struct RingMeans {
+  std::vector<double> cosine, sine, most;
+};
+
 class TableSurface {
  public:
   /// All of them take the table that this is kept with.
   std::span<const Segment> segments(const TabulatedSpectrum& table);
   double rms_slope(const TabulatedSpectrum& table);
   double nayak_parameter(const TabulatedSpectrum& table);
+  const RingMeans& means(const TabulatedSpectrum& table);
   /// What a later folder derives from the rows; all of a table's is one T.
   struct Derived {
     Derived() = default;
@@ -32,9 +38,10 @@ class TableSurface {
   }
 
  private:
-  std::once_flag segments_made_, slope_made_, nayak_made_, derived_made_;
+  std::once_flag segments_made_, slope_made_, nayak_made_, means_made_, derived_made_;
   std::vector<Segment> segments_;
   double rms_slope_ = 0, nayak_parameter_ = 0;
+  RingMeans means_;
   std::unique_ptr<Derived> derived_;
 };
 

@@ -7,6 +7,7 @@
 #include "numerics/arguments.hpp"
 #include "spectrum/harmonics.hpp"
 #include "spectrum/segments.hpp"
+#include "spectrum/roughness_window.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -194,6 +195,30 @@ double TableSurface::rms_slope(const TabulatedSpectrum& table) {
 double TableSurface::nayak_parameter(const TabulatedSpectrum& table) {
   std::call_once(nayak_made_, [&] { nayak_parameter_ = asperity::nayak_parameter(segments(table), table.q1()); });
   return nayak_parameter_;
+}
+
+const RingMeans& TableSurface::means(const TabulatedSpectrum& table) {
+  std::call_once(means_made_, [&] {
+    const RingHarmonics& all = table.harmonics();
+    const std::size_t count = all.count;
+    means_ = {std::vector<double>(count), std::vector<double>(count), std::vector<double>(count)};
+    for (std::size_t i = 0; i < all.cosine.size(); ++i)
+      means_.most[i % count] = std::fmax(means_.most[i % count], std::hypot(all.cosine[i], all.sine[i]));
+    double whole = 0;
+    for (const Segment& segment : segments(table)) {  // on which harmonics are straight lines of ln q
+      const auto [zeroth, first] = roughness_moments(segment, 0, segment.length());
+      if (!(zeroth > 0)) continue;
+      const HarmonicsAt at(table, segment.a * std::exp(first / zeroth));
+      whole += zeroth;
+      for (std::size_t m = 0; m < count; ++m) {
+        means_.cosine[m] += zeroth * at.cosine(m);
+        means_.sine[m] += zeroth * at.sine(m);
+      }
+    }
+    for (auto* const row : {&means_.cosine, &means_.sine})
+      for (double& one : *row) one /= whole > 0 ? whole : 1;
+  });
+  return means_;
 }
 
 SurfaceSegments::SurfaceSegments(const Spectrum& spectrum) {

@@ -56,32 +56,14 @@ const TabulatedSpectrum* harmonics_of(const Spectrum& spectrum) {
   return table && table->harmonics().count > 0 ? table : nullptr;
 }
 
-Directions::Directions(const TabulatedSpectrum& table, std::span<const Segment> surface, double direction)
-    : table_(table), size_(table.harmonics().count), mean_(table.harmonics().count) {
-  const RingHarmonics& harmonics = table.harmonics();
+Directions::Directions(const TabulatedSpectrum& table, double direction)
+    : table_(table), means_(table.surface().means(table)), mean_(table.harmonics().count) {
   for (std::size_t m = 0; m < count(); ++m) {
     const double angle = 2 * static_cast<double>(m + 1) * direction;
     cosine_.push_back(std::cos(angle));
     sine_.push_back(std::sin(angle));
   }
-  for (std::size_t i = 0; i < harmonics.cosine.size(); ++i)
-    size_[i % count()] = std::fmax(size_[i % count()], std::hypot(harmonics.cosine[i], harmonics.sine[i]));
-  // between rows harmonics are straight lines of ln q
-  std::vector<double> cosine(count()), sine(count());
-  double whole = 0;
-  for (const Segment& segment : surface) {
-    const auto [zeroth, first] = roughness_moments(segment, 0, segment.length());
-    if (!(zeroth > 0)) continue;
-    const HarmonicsAt at(table, segment.a * std::exp(first / zeroth));
-    whole += zeroth;
-    for (std::size_t m = 0; m < count(); ++m) {
-      cosine[m] += zeroth * at.cosine(m);
-      sine[m] += zeroth * at.sine(m);
-    }
-  }
-  for (auto* const row : {&cosine, &sine})
-    for (double& one : *row) one /= whole > 0 ? whole : 1;
-  turn(cosine.data(), sine.data(), mean_, 0);
+  turn(means_.cosine.data(), means_.sine.data(), mean_, 0);
 }
 
 void Directions::turn(const double* cosine, const double* sine, Rings& to, std::size_t wave) const {
@@ -153,8 +135,8 @@ Directions::Needed Directions::needed(const Rubber& rubber, const FrequencyRange
       most = std::fmax(most, share(of.loss, m - 1, i) + share(of.loss, m, i));
       for (const std::vector<double>& square : squares) most = std::fmax(most, 2 * share(square, m, i));
     }
-    if (rest + size_[m - 1] * most > least) return {m, rest};
-    rest += size_[m - 1] * most;
+    if (rest + means_.most[m - 1] * most > least) return {m, rest};
+    rest += means_.most[m - 1] * most;
   }
   return {0, rest};
 }

@@ -9,7 +9,7 @@
 
 #include "asperity/rubber.hpp"
 #include "asperity/spectrum.hpp"
-#include "spectrum/segments.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -44,8 +44,8 @@ void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<doub
 /// A spectrum whose rings are slid over in one direction.
 class Directions {
  public:
-  /// The harmonics of the table are kept where the surface is, of which the table must not live less long.
-  Directions(const TabulatedSpectrum& table, std::span<const Segment> surface, double direction);
+  /// The table must outlive it.
+  Directions(const TabulatedSpectrum& table, double direction);
 
   [[nodiscard]] std::size_t count() const { return table_.harmonics().count; }
   /// Of a wave of the band [1/m].
@@ -68,8 +68,8 @@ class Directions {
   void turn(const HarmonicsAt& at, Rings& to, std::size_t wave) const;
 
   const TabulatedSpectrum& table_;
+  const RingMeans& means_;
   std::vector<double> cosine_, sine_;  // of 2 m times the direction
-  std::vector<double> size_;           // of each harmonic at most
   Rings mean_;
 };
 

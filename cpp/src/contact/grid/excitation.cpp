@@ -90,7 +90,7 @@ Excitation::Excitation(const Rubber& rubber, const ContactModel& model, std::spa
     : rubber_(rubber) {
   if (model.strain_factors) softening_.emplace(*model.strain_factors, surface);
   if (softening_ && softening_->idle()) softening_.reset();
-  if (directions) directions_.emplace(*directions, surface, model.direction);
+  if (directions) directions_.emplace(*directions, model.direction);
 }
 
 Rings Excitation::rings(const ContactGrid& grid) const { return directions_ ? directions_->at_nodes(grid) : Rings(); }

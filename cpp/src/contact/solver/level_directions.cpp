@@ -46,8 +46,7 @@ void LevelSolver::add_directions_of_pieces(Level& level, std::span<double> of_lo
 void LevelSolver::check_directions(const Level& level) const {
   if (!rings_of_) return;
   const VectorXd& weight = level.grid->weight();
-  const Eigen::Map<const Eigen::ArrayXd> i2(level.i2.data(), static_cast<Index>(level.grid->band_size()));
-  if ((weight.array() > 0).select(i2, 1.0).minCoeff() > 0) return;
+  if (Eigen::Map<const VectorXd>(level.i2.data(), static_cast<Index>(level.grid->band_size())).minCoeff() > 0) return;
   for (std::size_t i = 0; i < level.grid->band_size(); ++i)
     if (weight[static_cast<Index>(i)] > 0 && !(level.i2[i] > 0))
       throw InvalidInput(argument("spectrum") +

@@ -336,8 +336,9 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     sums_ = now;
     g_ = level.theory->unit_g() * scale_;
     error_ = std::fmax(error, (by_pieces ? least_error : least_on_panels) * model_.rtol);
+    const VectorXd steering = rings_of_ ? level.theory->steering() : VectorXd();
     hysteresis_ = {mu_factor_ * now.friction, mu_factor_ * now.friction * error_, mu_factor_ * now.friction * outside,
-                   rings_of_ ? mu_factor_ * across(level, now, level.theory->steering()) : 0};
+                   mu_factor_ * (steering.size() > 0 ? across(level, now, steering) : lateral)};
     solved_ = &level;
     return true;
   }
