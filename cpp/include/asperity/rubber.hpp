@@ -57,9 +57,10 @@ class ASPERITY_EXPORT PronySeries {
   /// have been written otherwise.
   [[nodiscard]] bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
                                        std::span<double> i1_outside = {}) const;
-  /// L_1 to L_count and K_1 to K_count into rows of w.size().
-  void angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,
-                         std::span<double> square) const;
+  /// The same with L_1 and K_1 and so on into rows of w.size(), as many as `loss` and `square` have room for.
+  [[nodiscard]] bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                                       std::span<double> i1_outside, std::span<double> loss,
+                                       std::span<double> square) const;
   /// The same rubber at a temperature of shift factor a_T: E(w) becomes E(a_T w), known where a_T w is.
   [[nodiscard]] PronySeries shifted(double a_T) const;
   /// The same series as one that was fitted on these frequencies; `extrapolated`: it may be asked beyond them.
@@ -79,6 +80,8 @@ class ASPERITY_EXPORT PronySeries {
   void check_frequency(double w) const;
   void check_fitted(double w) const;
   [[nodiscard]] AngularIntegrals outside(double w, const AngularIntegrals& whole) const;
+  bool outside(std::span<const double> w, std::span<const double> i1, std::span<const double> i2,
+               std::span<double> i1_outside) const;
 
   double equilibrium_;
   std::vector<double> moduli_, times_;
@@ -109,11 +112,13 @@ class ASPERITY_EXPORT MasterCurve {
   /// comes from outside.
   [[nodiscard]] bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
                                        std::span<double> i1_outside = {}) const;
+  /// The same with L_1 and K_1 and so on, to 1e-9 of I1 and I2, into rows of w.size(), as many as `loss` and `square`
+  /// have room for.
+  [[nodiscard]] bool angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                                       std::span<double> i1_outside, std::span<double> loss,
+                                       std::span<double> square) const;
   /// int (Im E(w cos phi))^2 cos(2 m phi) dphi, what E'' has of K_m [Pa^2], in rows of m = 0, 1 ... as many as fit.
   void loss_part(std::span<const double> w, std::span<double> part) const;
-  /// L_1 to L_count and K_1 to K_count into rows of w.size(), to 1e-9 of L_0 and K_0.
-  void angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,
-                         std::span<double> square) const;
   [[nodiscard]] MasterCurve shifted(double a_T) const;
   /// Lowest and highest angular frequency at which angular integrals can be had [rad/s].
   [[nodiscard]] double lowest_frequency() const;
@@ -138,10 +143,11 @@ ASPERITY_EXPORT std::optional<FrequencyRange> known_range(const Rubber& rubber);
 ASPERITY_EXPORT std::complex<double> modulus(const Rubber& rubber, double angular_frequency);
 ASPERITY_EXPORT AngularIntegrals angular_integrals(const Rubber& rubber, double angular_frequency);
 
-/// At each of `angular_frequency`, into spans of as many entries. False where no more than 1e-7 of any I1 comes from
-/// outside of the measured range; `i1_outside` may not have been written then.
+/// At each of `angular_frequency`, into spans of as many entries, harmonics into rows of as many. False where no more
+/// than 1e-7 of any I1 comes from outside of the measured range; `i1_outside` may not have been written then.
 ASPERITY_EXPORT bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency,
-                                       std::span<double> i1, std::span<double> i2, std::span<double> i1_outside);
+                                       std::span<double> i1, std::span<double> i2, std::span<double> i1_outside,
+                                       std::span<double> loss = {}, std::span<double> square = {});
 
 /// Rows of k from 0 to `count`.
 ASPERITY_EXPORT AngularHarmonics angular_harmonics(const Rubber& rubber, std::span<const double> angular_frequency,

@@ -59,7 +59,8 @@ void AngularSlopes::add_rings(std::span<const double> w, bool sloped, AngularCol
   const std::size_t n = w.size(), rows = harmonics_;
   for (auto* const row : {&loss_, &square_, &slopes_}) row->resize(rows * n);
   const std::span<const double> at(held_.data(), n);
-  std::visit([&](const auto& r) { r.angular_harmonics(at, rows, loss_, square_); }, rubber_);
+  for (auto* const row : {&i1_[0], &i2_[0]}) row->resize(n);
+  (void)angular_integrals(rubber_, at, i1_[0], i2_[0], {}, loss_, square_);
   // `order`: n of the row before the first
   const auto take_slopes = [&](std::span<const double> first, std::span<const double> slope,
                                std::span<const double> others, std::size_t order) {

@@ -38,9 +38,9 @@ struct Kernels {
   /// The same with dI1/dln w and dI2/dln w; no (w tau)^3 may overflow.
   void (*prony_slopes)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2, double* slope1,
                        double* slope2);
-  /// L_1 to L_count and K_1 to K_count (AngularHarmonics of asperity/rubber.hpp), a row of n each.
-  void (*prony_harmonics)(const PronyTerms& terms, const double* w, std::size_t n, std::size_t count, double* loss,
-                          double* square);
+  /// The same with L_1 to L_count and K_1 to K_count (AngularHarmonics of asperity/rubber.hpp), a row of n each.
+  void (*prony_harmonics)(const PronyTerms& terms, const double* w, std::size_t n, std::size_t count, double* i1,
+                          double* i2, double* loss, double* square);
   /// Integral of the polynomial through f, and its last coefficients.
   void (*add_up)(const LegendreRule& rule, const double* f, double* total, double* tail);
   /// Integral of the polynomial through f, to each node by `columns` of the rule and over all, and its last

@@ -11,12 +11,21 @@
 
 #include "numerics/arguments.hpp"
 #include "numerics/chebyshev.hpp"
+#include "numerics/kernels.hpp"
+#include "numerics/simd.hpp"
 
 namespace asperity {
 
 namespace {
 
 constexpr std::size_t order = AngularPolynomials::order;
+constexpr std::size_t together = 8;  // frequencies
+
+constexpr std::size_t in_blocks(std::size_t columns) { return (columns + lanes - 1) / lanes * lanes; }
+
+#define ASPERITY_LOOPS "rubber/harmonic_loops.inc"
+#include "numerics/vector_units.inc"
+
 using Values = Eigen::Matrix<double, order, 1>;
 using Matrix = Eigen::Matrix<double, order, order>;
 
@@ -70,13 +79,15 @@ struct Chain {
 
 }  // namespace
 
-void require_harmonics(std::span<const double> w, std::size_t count, std::span<const double> loss,
-                       std::span<const double> square) {
-  require_same_size("loss", loss.size(), "angular_frequency times count", w.size() * count);
-  require_same_size("square", square.size(), "angular_frequency times count", w.size() * count);
+std::size_t harmonics_in(std::span<const double> w, std::span<const double> loss, std::span<const double> square) {
+  const std::size_t count = w.empty() ? 0 : loss.size() / w.size();
+  require_same_size("loss", loss.size(), "rows times angular_frequency", w.size() * count);
+  require_same_size("square", square.size(), "loss", loss.size());
+  return count;
 }
 
-HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail, std::size_t count) : count_(count) {
+HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail, std::size_t count)
+    : count_(count), outside_(in_blocks(2 * (count + 1))), width_(outside_ + lanes) {
   const AngularSums& sums = table.sums();
   const std::span<const double> edges = sums.edges();
   const ChebyshevZeros<order>& zeros = AngularPolynomials::zeros();
@@ -96,68 +107,96 @@ HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail
     for (std::size_t c = 0; c < cuts; ++c) {
       const double half = 0.5 / static_cast<double>(cuts), from = 2 * half * static_cast<double>(c);
       const auto w_at = [&](double t) { return edges[p] + length * (root ? t * t : t); };
-      double w[order], i1[order], i2[order];
+      double w[order], i1[order], i2[order], outside[order];
       Values rise, first, second;
       for (std::size_t i = 0; i < order; ++i) {
         const double t = from + half * (1 + zeros.point[i]);
         w[i] = w_at(t);
         rise[static_cast<Eigen::Index>(i)] = half * length * (root ? 2 * t : 1) / w[i];
       }
-      table(w, i1, i2, nullptr);
+      table(w, i1, i2, outside);
+      bool has_outside = false;
       for (std::size_t i = 0; i < order; ++i) {
+        has_outside |= outside[i] > AngularTable::least_outside * i1[i];
         first[static_cast<Eigen::Index>(i)] = i1[i];
         second[static_cast<Eigen::Index>(i)] = i2[i];
       }
       cells_.push_back({w_at(from), c + 1 == cuts ? edges[p + 1] : w_at(from + 2 * half), from, 1 / half, edges[p],
-                        1 / length, root});
-      const std::size_t place = of_.size();
-      of_.resize(place + count);
-      const auto keep = [&](std::size_t which) {
-        return [&, which](std::size_t k, const Values& f) {
-          std::array<double, order> value;
-          std::ranges::copy(f, value.begin());
-          of_[place + k].fit(value, which);
-        };
+                        1 / length, root, has_outside});
+      const std::size_t place = coefficient_.size();
+      coefficient_.resize(place + order * width_);
+      const auto keep = [&](std::size_t column, const Values& f) {
+        std::array<double, order> value;
+        std::ranges::copy(f, value.begin());
+        const std::array<double, order> power = powers_of(zeros.series(value));
+        for (std::size_t i = 0; i < order; ++i) coefficient_[place + i * width_ + column] = power[i];
       };
-      odd.step(first, rise, keep(0));
-      even.step(second, rise, keep(1));
+      keep(0, first);
+      keep(1, second);
+      keep(outside_, Eigen::Map<const Values>(outside));
+      odd.step(first, rise, [&](std::size_t k, const Values& f) { keep(2 * k + 2, f); });
+      even.step(second, rise, [&](std::size_t k, const Values& f) { keep(2 * k + 3, f); });
     }
   }
 }
 
-void HarmonicTable::operator()(std::span<const double> w, std::size_t count, double* loss, double* square) const {
-  constexpr std::size_t together = AngularPolynomials::together;
-  const std::size_t n = w.size();
-  const AngularPolynomials* of[together];
-  double u[together];
-  Pair sum[together];
+bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, double* i1, double* i2, double* i1_outside,
+                               double* loss, double* square) const {
+#ifdef __x86_64__
+  static const auto loop = vector_unit() == VectorUnit::baseline ? baseline::polynomials_at : avx2::polynomials_at;
+#else
+  constexpr auto loop = baseline::polynomials_at;
+#endif
+  const std::size_t n = w.size(), columns = in_blocks(2 * (count + 1));
+  const double *of[together], *outside[together];
+  const Cell* cell[together];
+  double share[together], u[together], beyond[lanes * together];
+  std::vector<double> value(columns * together);
+  std::vector<double*> to(columns);
+  constexpr std::size_t near = 4;  // cells
   std::size_t c = 0;
+  bool any_outside = false;
   for (std::size_t from = 0; from < n; from += together) {
     const std::size_t here = std::min(together, n - from);
+    bool has_outside = false;
     for (std::size_t i = 0; i < together; ++i) {
       const double at = std::clamp(w[from + (i < here ? i : 0)], cells_.front().low, cells_.back().high);
-      c = cell_of(at, c);
-      const Cell& cell = cells_[c];
-      const double share = std::fmax(0, (at - cell.panel_low) * cell.inverse_length);
-      of[i] = &of_[c * count_];
-      u[i] = ((cell.root ? std::sqrt(share) : share) - cell.from) * cell.inverse_step - 1;
+      for (std::size_t step = 0; step < near && at > cells_[c].high; ++step) ++c;
+      if (!(at >= cells_[c].low && at <= cells_[c].high)) c = cell_of(at);
+      cell[i] = &cells_[c];
+      share[i] = std::max(0.0, (at - cell[i]->panel_low) * cell[i]->inverse_length);
+      of[i] = &coefficient_[c * order * width_];
+      has_outside |= cell[i]->has_outside;
     }
-    for (std::size_t k = 0; k < count; ++k) {
-      AngularPolynomials::at(of, u, sum);
-      for (std::size_t i = 0; i < together; ++i) ++of[i];
-      for (std::size_t i = 0; i < here; ++i) {
-        loss[k * n + from + i] = sum[i][0];
-        square[k * n + from + i] = sum[i][1];
-      }
+    for (std::size_t i = 0; i < together; ++i) u[i] = std::sqrt(share[i]);
+    for (std::size_t i = 0; i < together; ++i)
+      u[i] = ((cell[i]->root ? u[i] : share[i]) - cell[i]->from) * cell[i]->inverse_step - 1;
+    const auto row = [&](std::size_t k, double* first, double* rows) { return (k == 0 ? first : rows + (k - 1) * n); };
+    for (std::size_t k = 0; k < columns; ++k) to[k] = &value[k * together];
+    for (std::size_t k = 0; here == together && k <= count; ++k) {
+      to[2 * k] = row(k, i1, loss) + from;
+      to[2 * k + 1] = row(k, i2, square) + from;
     }
+    loop(of, u, width_, columns / lanes, to.data());
+    for (std::size_t k = 0; here < together && k <= count; ++k) {
+      std::copy_n(to[2 * k], here, row(k, i1, loss) + from);
+      std::copy_n(to[2 * k + 1], here, row(k, i2, square) + from);
+    }
+    any_outside |= has_outside;
+    if (!i1_outside) continue;
+    std::fill_n(beyond, together, 0.0);
+    if (has_outside) {
+      double* only[lanes];
+      for (std::size_t k = 0; k < lanes; ++k) only[k] = beyond + k * together;
+      for (std::size_t i = 0; i < together; ++i) outside[i] = of[i] + outside_;
+      loop(outside, u, width_, 1, only);
+    }
+    for (std::size_t i = 0; i < here; ++i) i1_outside[from + i] = std::clamp(beyond[i], 0.0, i1[from + i]);
   }
+  return any_outside;
 }
 
-/// From the cell of a frequency beside it.
-std::size_t HarmonicTable::cell_of(double w, std::size_t c) const {
-  constexpr std::size_t near = 4;
-  for (const std::size_t end = std::min(c + near, cells_.size()); c < end; ++c)
-    if (w >= cells_[c].low && w <= cells_[c].high) return c;
+std::size_t HarmonicTable::cell_of(double w) const {
   const auto above = std::ranges::upper_bound(cells_, w, {}, &Cell::low) - cells_.begin();
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1)) - 1;
 }

@@ -11,9 +11,8 @@
 
 namespace asperity {
 
-/// Refuses rows that have not `count` times the room of `w`.
-void require_harmonics(std::span<const double> w, std::size_t count, std::span<const double> loss,
-                       std::span<const double> square);
+/// For how many rows of as many entries as `w` both have room; refuses other sizes.
+std::size_t harmonics_in(std::span<const double> w, std::span<const double> loss, std::span<const double> square);
 
 /// F_n = int cos(n phi) f(w cos phi) dphi follows from F_n-2 as
 ///   F_n+1 = F_n-1 - 2 n A,   dA/dln w = F_n-1 - (n + 1) A,
@@ -23,21 +22,24 @@ class HarmonicTable {
  public:
   HarmonicTable(const AngularTable& table, const ModulusPiece& tail, std::size_t count);
   [[nodiscard]] std::size_t count() const { return count_; }
-  /// At each of `w`, into rows of w.size() for k from 1 to `count`.
-  void operator()(std::span<const double> w, std::size_t count, double* loss, double* square) const;
+  /// I1 and I2 at each of `w`, and into rows of w.size() those for k from 1 to `count`; whether more than 1e-7 of an I1
+  /// comes from outside of the measured range. `i1_outside` may be null.
+  bool operator()(std::span<const double> w, std::size_t count, double* i1, double* i2, double* i1_outside,
+                  double* loss, double* square) const;
 
  private:
   struct Cell {
     double low, high;  // [rad/s]
     // a polynomial's variable is (t - from) / step - 1 with t the share of the panel or its root
     double from, inverse_step, panel_low, inverse_length;
-    bool root;
+    bool root, has_outside;
   };
-  [[nodiscard]] std::size_t cell_of(double w, std::size_t c) const;
+  [[nodiscard]] std::size_t cell_of(double w) const;
 
-  std::size_t count_;
+  static constexpr std::size_t order = AngularPolynomials::order;
+  std::size_t count_, outside_, width_;  // of harmonics; where a row of coefficients has the part outside, and its end
   std::vector<Cell> cells_;
-  std::vector<AngularPolynomials> of_;  // count_ a cell
+  std::vector<double> coefficient_;  // of each cell `order` rows with those of I1, I2, L_1, K_1 and so on
 };
 
 /// Tables made when first asked for, each of twice as many harmonics as the one before.

@@ -69,7 +69,7 @@ const AngularTable::Parts& AngularTable::parts(std::size_t panel) const {
 /// The parts from t0 to t1, as many as it takes until the last coefficients are small.
 void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts) const {
   const double low = sums_.edges()[panel], high = sums_.edges()[panel + 1];
-  constexpr double tolerance = 1e-12, of_outside = 1e-10, least_outside = 1e-7;
+  constexpr double tolerance = 1e-12, of_outside = 1e-10;
   const bool root = sums_.at_branch(panel);
   const auto frequency = [&](double t) { return t == 1 ? high : low + (high - low) * (root ? t * t : t); };
   Part part{

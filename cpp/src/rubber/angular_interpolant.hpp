@@ -48,6 +48,7 @@ class AngularTable {
   [[nodiscard]] AngularIntegrals operator()(double w) const;
   /// At each of `w`; of any of them, whether more than 1e-7 of I1 comes from outside of the measured range, and whether
   /// it is beyond the pieces, where the values at their ends are taken. `i1_outside` may be null.
+  static constexpr double least_outside = 1e-7;
   struct Any {
     bool outside = false, beyond = false;
   };

@@ -158,17 +158,23 @@ void MasterCurve::loss_part(std::span<const double> w, std::span<double> part) c
   require_same_size("part", part.size(), "rows times angular_frequency", std::max<std::size_t>(rows, 1) * n);
   std::vector<double> beside(rows * n);
   const Table::LossAlone& of = table_->of_loss();
-  (void)of.angular(w, beside.data(), part.data(), nullptr);
-  if (rows > 1) of.harmonics.of(of.angular, of.pieces.front(), rows - 1)(w, rows - 1, beside.data(), part.data() + n);
+  if (rows > 1)
+    of.harmonics.of(of.angular, of.pieces.front(), rows - 1)(w, rows - 1, beside.data(), part.data(), nullptr,
+                                                             beside.data() + n, part.data() + n);
+  else
+    (void)of.angular(w, beside.data(), part.data(), nullptr);
 }
 
-void MasterCurve::angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,
+bool MasterCurve::angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                                    std::span<double> i1_outside, std::span<double> loss,
                                     std::span<double> square) const {
-  require_harmonics(w, count, loss, square);
-  if (w.empty()) return;
+  const std::size_t count = harmonics_in(w, loss, square);
+  if (count == 0) return angular_integrals(w, i1, i2, i1_outside);
+  require_room(w, i1, i2);
   const Eigen::Map<const Eigen::ArrayXd> at(w.data(), static_cast<Eigen::Index>(w.size()));
   for (const double one : {at.minCoeff(), at.maxCoeff()}) table_->check(one);
-  table_->harmonics.of(table_->angular, table_->pieces.front(), count)(w, count, loss.data(), square.data());
+  return table_->harmonics.of(table_->angular, table_->pieces.front(), count)(
+      w, count, i1.data(), i2.data(), i1_outside.empty() ? nullptr : i1_outside.data(), loss.data(), square.data());
 }
 
 MasterCurve MasterCurve::with_shifts(std::shared_ptr<const ShiftTable> shifts) const {

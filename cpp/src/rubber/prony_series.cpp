@@ -156,9 +156,14 @@ bool PronySeries::angular_integrals(std::span<const double> w, std::span<double>
     i1[i] = one.i1;
     i2[i] = one.i2;
   }
+  return outside(w, i1, i2, i1_outside);
+}
+
+bool PronySeries::outside(std::span<const double> w, std::span<const double> i1, std::span<const double> i2,
+                          std::span<double> i1_outside) const {
   if (!fit_) return false;
   bool any = false;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < w.size(); ++i) {
     // int_0^psi 4 sin E''(w sin) <= 4 (1 - cos psi) E''_max, and 1 - cos psi <= 0.51 sin^2 psi up to 0.2
     const double sine = fit_->range.lowest / w[i];
     double outside_i = 0;
@@ -170,32 +175,37 @@ bool PronySeries::angular_integrals(std::span<const double> w, std::span<double>
   return any;
 }
 
-void PronySeries::angular_harmonics(std::span<const double> w, std::size_t count, std::span<double> loss,
+bool PronySeries::angular_integrals(std::span<const double> w, std::span<double> i1, std::span<double> i2,
+                                    std::span<double> i1_outside, std::span<double> loss,
                                     std::span<double> square) const {
-  require_harmonics(w, count, loss, square);
-  for (const double one : w) {
-    require_not_negative("angular_frequency", one);
-    check_fitted(one);
-  }
+  const std::size_t count = harmonics_in(w, loss, square);
+  if (count == 0) return angular_integrals(w, i1, i2, i1_outside);
   constexpr double most = 1e150;  // of w tau, beyond which nothing changes
   const double fastest = longest_ > 0 ? most / longest_ : std::numeric_limits<double>::max();
   const PronyTerms terms{moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_};
-  const std::size_t n = w.size(), whole = n % lanes == 0 && (n == 0 || std::ranges::max(w) < fastest) ? n : 0;
-  if (whole == n) {
-    kernels().prony_harmonics(terms, w.data(), n, count, loss.data(), square.data());
-    return;
+  const std::size_t n = w.size();
+  if (n % lanes == 0 && std::ranges::max(w) < fastest) {
+    require_room(w, i1, i2);
+    for (const double one : w) {
+      require_not_negative("angular_frequency", one);
+      check_fitted(one);
+    }
+    kernels().prony_harmonics(terms, w.data(), n, count, i1.data(), i2.data(), loss.data(), square.data());
+    return outside(w, i1, i2, i1_outside);
   }
+  const bool any_outside = angular_integrals(w, i1, i2, i1_outside);
   std::vector<double> first(count * lanes), second(count * lanes);
   for (std::size_t i = 0; i < n; i += lanes) {
-    double at[lanes];
+    double at[lanes], of_i1[lanes], of_i2[lanes];
     for (std::size_t k = 0; k < lanes; ++k) at[k] = std::fmin(w[std::min(i + k, n - 1)], fastest);
-    kernels().prony_harmonics(terms, at, lanes, count, first.data(), second.data());
+    kernels().prony_harmonics(terms, at, lanes, count, of_i1, of_i2, first.data(), second.data());
     for (std::size_t j = 0; j < count; ++j)
       for (std::size_t k = 0; k < std::min(lanes, n - i); ++k) {
         loss[j * n + i + k] = first[j * lanes + k];
         square[j * n + i + k] = second[j * lanes + k];
       }
   }
+  return any_outside;
 }
 
 PronySeries PronySeries::shifted(double a_T) const {
@@ -247,16 +257,19 @@ AngularHarmonics angular_harmonics(const Rubber& rubber, std::span<const double>
   const std::span<double> loss(result.loss), square(result.square);
   std::visit(
       [&](const auto& r) {
-        (void)r.angular_integrals(angular_frequency, loss.first(n), square.first(n));
-        r.angular_harmonics(angular_frequency, count, loss.subspan(n), square.subspan(n));
+        (void)r.angular_integrals(angular_frequency, loss.first(n), square.first(n), {}, loss.subspan(n),
+                                  square.subspan(n));
+        (void)r.angular_integrals(angular_frequency, loss.first(n), square.first(n));  // bit by bit
       },
       rubber);
   return result;
 }
 
 bool angular_integrals(const Rubber& rubber, std::span<const double> angular_frequency, std::span<double> i1,
-                       std::span<double> i2, std::span<double> i1_outside) {
-  return std::visit([&](const auto& r) { return r.angular_integrals(angular_frequency, i1, i2, i1_outside); }, rubber);
+                       std::span<double> i2, std::span<double> i1_outside, std::span<double> loss,
+                       std::span<double> square) {
+  return std::visit(
+      [&](const auto& r) { return r.angular_integrals(angular_frequency, i1, i2, i1_outside, loss, square); }, rubber);
 }
 
 double effective_modulus(double modulus, double poisson_ratio, double modulus_2, double poisson_ratio_2) {

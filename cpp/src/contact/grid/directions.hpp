@@ -1,6 +1,7 @@
 // The harmonics of a directional spectrum, seen from the velocity, and what they add to the integrals of a rubber.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -22,11 +23,11 @@ struct Rings {
   std::vector<double> along, across;
   Rings(std::size_t harmonics = 0, std::size_t of_waves = 1)
       : count(harmonics), waves(of_waves), along(count * waves), across(count * waves) {}
-  /// C over its mean of so many harmonics, at most.
-  [[nodiscard]] double most(std::size_t wave, std::size_t harmonics) const {
-    double sum = 1;
-    for (std::size_t m = 0; m < harmonics; ++m) sum += 2 * std::fabs(along[m * waves + wave]);
-    return sum;
+  /// C over its mean of so many harmonics, at most, of each of the first waves.
+  void most(std::size_t harmonics, std::span<double> of) const {
+    std::ranges::fill(of, 1.0);
+    for (std::size_t m = 0; m < harmonics; ++m)
+      for (std::size_t i = 0; i < of.size(); ++i) of[i] += 2 * std::fabs(along[m * waves + i]);
   }
 };
 

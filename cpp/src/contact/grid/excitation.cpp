@@ -123,8 +123,9 @@ void soften(std::span<const ModulusFactors> factors, std::span<const double> los
 
 bool Excitation::operator()(std::span<const double> w, std::span<const ModulusFactors> factors, std::span<double> i1,
                             std::span<double> i2, std::span<double> i1_outside, const Directed& directed) const {
-  const bool any_outside = angular_integrals(rubber_, w, i1, i2, i1_outside);
   const std::size_t n = w.size(), rows = directed.rings ? directed.harmonics : 0;
+  std::vector<double> loss(rows * n), square(rows * n);
+  const bool any_outside = angular_integrals(rubber_, w, i1, i2, i1_outside, loss, square);
   std::vector<double> of_loss;
   if (!factors.empty()) {
     of_loss.resize((rows + 1) * n);
@@ -136,15 +137,13 @@ bool Excitation::operator()(std::span<const double> w, std::span<const ModulusFa
     soften(factors, of_loss, directed.mean_i1, directed.mean_i2, {});
   }
   if (rows > 0) {
-    std::vector<double> loss(rows * n), square(rows * n);
-    std::visit([&](const auto& r) { r.angular_harmonics(w, rows, loss, square); }, rubber_);
-    const std::vector<double> whole(i1.begin(), i1.end());
+    const bool outside = any_outside && !i1_outside.empty();
+    for (std::size_t i = 0; outside && i < n; ++i) i1_outside[i] /= i1[i] > 0 ? i1[i] : 1;
     add_directions(*directed.rings, {rows, n, loss, square}, i1, directed.across);
     add_directions(*directed.rings, {rows, n, loss, square}, i2);
     if (!factors.empty())
       add_directions(*directed.rings, {rows, n, {}, std::span(of_loss).subspan(n)}, std::span(of_loss).first(n));
-    if (any_outside && !i1_outside.empty())  // as if it had the directions of all
-      for (std::size_t i = 0; i < n; ++i) i1_outside[i] *= whole[i] > 0 ? i1[i] / whole[i] : 1;
+    for (std::size_t i = 0; outside && i < n; ++i) i1_outside[i] *= i1[i];  // as if it had the directions of all
   }
   if (factors.empty()) return any_outside;
   soften(factors, std::span(of_loss).first(n), i1, i2, any_outside ? i1_outside : std::span<double>());

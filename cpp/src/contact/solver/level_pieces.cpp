@@ -22,32 +22,30 @@ constexpr double passed_on = 2;  // |d ln R / d ln G| at most, R that of Partial
 void LevelSolver::take_moduli_of_pieces(Level& level, bool first) {
   const RoughnessPieces& pieces = *level.grid->pieces();
   const std::size_t n = level.grid->size();
-  const auto take = [&](const RoughnessCells& cells, const Rubber& rubber, std::span<double> outside) {
+  const auto take = [&](const RoughnessCells& cells, const Rubber& rubber, std::span<double> outside,
+                        std::size_t harmonics) {
     const std::size_t points = cells.wavenumber().size();
     for (auto* const row : {&frequency_, &i1_, &i2_}) row->resize(points);
+    for (auto* const row : {&loss_, &square_}) row->resize(harmonics * points);
     for (std::size_t i = 0; i < points; ++i) frequency_[i] = velocity_ * cells.wavenumber()[i];
-    return angular_integrals(rubber, frequency_, i1_, i2_, outside);
+    return angular_integrals(rubber, frequency_, i1_, i2_, outside, loss_, square_);
   };
   if (first && known_in_part_) {
     const RoughnessCells& cells = pieces.coarse_cells();
     outside_at_points_.resize(cells.wavenumber().size());
-    any_outside_ = take(cells, waves_.rubber(), outside_at_points_);
+    any_outside_ = take(cells, waves_.rubber(), outside_at_points_, 0);
     if (any_outside_) {
       level.i1_outside.resize(n + RoughnessCells::excess);
       cells.at_nodes(outside_at_points_.data(), i1_.data(), level.i1_outside.data(), level.i1.data());
     }
   }
   const RoughnessCells& cells = pieces.cells();  // of the same points at each level
-  if (first) (void)take(cells, *analytic_, {});
+  if (first) (void)take(cells, *analytic_, {}, needed_.count);
   cells.at_nodes(i1_.data(), i2_.data(), level.i1.data(), level.i2.data());
   const std::size_t rows = needed_.count, points = frequency_.size();
   if (first && !level.factors.empty()) {
     of_loss_.resize((rows + 1) * points);
     loss_part(*analytic_, frequency_, of_loss_);
-  }
-  if (first && rows > 0) {
-    for (auto* const row : {&loss_, &square_}) row->resize(rows * points);
-    std::get<PronySeries>(*analytic_).angular_harmonics(frequency_, rows, loss_, square_);
   }
   at_nodes_.resize(level.i2.size());
   if (!level.factors.empty()) cells.at_nodes(of_loss_.data(), of_loss_.data(), at_nodes_.data(), at_nodes_.data());
@@ -79,8 +77,9 @@ double LevelSolver::beside_knots(const Level& level, const ContactSums& sums) {
     for (std::size_t i = 2; i + 2 < n; ++i)
       to[i] =
           factor * std::fabs((a[i] * f[i - 2] + b[i] * f[i - 1]) + c[i] * f[i] + (d[i] * f[i + 1] + e[i] * f[i + 2]));
-    for (std::size_t i = 2; rings_of_ && i + 2 < n; ++i) to[i] *= level.rings.most(i, needed_.count);
+    for (std::size_t i = 2; rings_of_ && i + 2 < n; ++i) to[i] *= at_nodes_[i];
   };
+  if (rings_of_) level.rings.most(needed_.count, at_nodes_);
   differences(rings_of_ ? level.mean_i1 : level.i1, of_i1_);
   differences(rings_of_ ? level.mean_i2 : level.i2, of_i2_);
   const double kappa_on_mu = std::fabs(sums.friction_slope) * by_kappa,
