@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.table import to_install
-from asperity.draw.style import colours, fatal_notes, narrow, palette, shades
+from asperity.draw.style import circle, colours, fatal_notes, narrow, palette, shades
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -133,6 +133,18 @@ def shaded(axes: "Axes", values: NDArray[np.float64], title: str) -> NDArray[np.
     norm = LogNorm(float(values.min()), float(values.max()))
     bar(axes, ScalarMappable(norm, shades()), label=title)
     return np.asarray(shades()(norm(values)))
+
+
+def turned(axes: "Axes", degrees: NDArray[np.float64], title: str) -> NDArray[np.float64]:
+    """A colour a direction, alike after half a turn; with a bar where that has a title."""
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import ListedColormap, Normalize
+
+    if title:
+        map_of = ListedColormap(circle(np.linspace(0, 1, 256)))
+        drawn = bar(axes, ScalarMappable(Normalize(0, 180), map_of), label=title)
+        drawn.set_ticks(range(0, 181, 45))
+    return np.asarray(circle(degrees / 180))
 
 
 def named(axes: "Axes", names: Sequence[str]) -> None:

@@ -19,6 +19,7 @@ from asperity.draw.figure import (
     named,
     pressure_text,
     shaded,
+    turned,
 )
 from asperity.draw.style import colours, grey
 
@@ -48,7 +49,9 @@ class Curve:
     """One curve of a picture, arrays along its abscissa; what is not known is NaN."""
 
     label: str
+    shared: str  # what is said of all curves, where they differ in their directions alone
     pressure: float
+    direction: float  # [degrees]
     x: NDArray[np.float64]
     mu: NDArray[np.float64]
     lateral: NDArray[np.float64]
@@ -103,15 +106,19 @@ def curves_of(
         told = [key for key in keys if key in ("pressure", "velocity") or key in varied]
         points = np.stack([np.nan_to_num(flat[key]) for key in keys], axis=-1)
         first = np.unique(points, axis=0, return_index=True)[1]
+        alone = varied == {"direction"} and len(set(names)) == 1
         for start in sorted(first):
             at = np.flatnonzero((points == points[start]).all(axis=1))
             at = at[np.argsort(flat[over][at], kind="stable")]
             values = {key: float(flat[key][start]) for key in told}
-            texts = [_text(key, value, celsius=celsius) for key, value in values.items()]
+            texts = {k: _text(k, value, celsius=celsius) for k, value in values.items()}
+            label = texts.pop("direction") if alone else ""
             x = flat[over][at] - (ZERO_CELSIUS if celsius and over == "temperature" else 0.0)
             rest = {key: flat[key][at] for key in (*_COLUMNS, "low", "high", "cold", "rise")}
-            label = ", ".join(filter(None, (name, *texts)))
-            yield Curve(label, float(flat["pressure"][start]), x, **rest)
+            told_once = ", ".join(filter(None, (name, *texts.values())))
+            pressure, direction = (float(flat[k][start]) for k in ("pressure", "direction"))
+            label, shared = (label, told_once) if alone else (told_once, "")
+            yield Curve(label, shared, pressure, direction, x, **rest)
 
 
 def _text(key: str, value: float, *, celsius: bool) -> str:
@@ -166,7 +173,12 @@ def draw_friction(
     """
     tints: Sequence[Any] = colours(len(curves))
     many = len(curves) > MOST_ENTRIES
-    if many and bar:
+    shared = curves[0].shared if curves else ""
+    if shared:
+        axes.plot([], [], linestyle="", label=shared)
+        degrees = np.array([curve.direction for curve in curves])
+        tints = list(turned(axes, degrees, DIRECTION if many else ""))
+    elif many and bar:
         tints = list(shaded(axes, np.array([curve.pressure for curve in curves]), bar))
     elif many:
         named(axes, [curve.label for curve in curves])

@@ -92,6 +92,29 @@ def shades() -> "Colormap":
     return ListedColormap(colormaps["cividis"](np.linspace(first, last, 256)))
 
 
+def circle(turns: Any) -> Any:
+    """Colours of one lightness around a circle of hues, alike after a whole turn: those of OKLab
+    (B. Ottosson, 2020), of the largest chroma that all hues have."""
+    light, chroma = (0.78, 0.12) if _style.get() == "dark" else (0.62, 0.115)
+    hue = 2 * np.pi * (np.asarray(turns, dtype=np.float64) + 0.7)  # blue first
+    a, b = chroma * np.cos(hue), chroma * np.sin(hue)
+    cones = np.stack(
+        [
+            light + 0.3963377774 * a + 0.2158037573 * b,
+            light - 0.1055613458 * a - 0.0638541728 * b,
+            light - 0.0894841775 * a - 1.2914855480 * b,
+        ],
+        axis=-1,
+    )
+    to_rgb = [
+        [4.0767416621, -3.3077115913, 0.2309699292],
+        [-1.2684380046, 2.6097574011, -0.3413193965],
+        [-0.0041960863, -0.7034186147, 1.7076147010],
+    ]
+    linear = np.clip(cones**3 @ np.transpose(to_rgb), 0, 1)
+    return np.where(linear > 0.0031308, 1.055 * linear ** (1 / 2.4) - 0.055, 12.92 * linear)
+
+
 def grey(level: float) -> str:
     """A grey as it is on paper, 0 is ink; on a dark screen as far from the paper, of its range."""
     if _style.get() == "dark":
