@@ -39,7 +39,8 @@ ASPERITY_EXPORT std::vector<unsigned char> build_friction_map(const Spectrum& sp
                                                               const MapRequest& request);
 
 /// The same with the heat that friction makes, for backgrounds of one temperature (both ends equal) or of all between
-/// [K]; `rubber` is the one at the reference of `shift`. Beside it the file holds the map without heat, to the same
+/// [K]; `rubber` is the one at the reference of `shift`. On a directional spectrum the map has the one direction of
+/// `model`. Beside it the file holds the map without heat, to the same
 /// rtol, and the distance over which sliding that begins heats up. Over the temperature cells are cubics between as
 /// many nodes as rtol asks for; over a range of it and with a measured master curve they are cubics along lines of
 /// constant v a_T instead, as mu is rough across them, where `shift` is a law: shift factors have kinks at temperatures

@@ -35,7 +35,8 @@
 // A map of a surface with a lay knows directions: a look-up takes the angle of sliding, `direction` [rad], from x
 // towards y, of the axes that the map was made in, and gives the force across the sliding too, `lateral`: on the
 // moving body it is -sigma0 (mu s + lateral n), s the unit vector of sliding and n that turned by +90 degrees. Half a
-// turn changes neither. Its cells hold cubics in the angle, and beside it lies the map of lateral / mu_H.
+// turn changes neither. Its cells hold cubics in the angle, and beside it lies the map of lateral / mu_H. With heat, as
+// of a scan, it is for one direction, and `direction` is ignored.
 //   map.mu(2e5, 0.3, Outside::clamp, {.direction = 0.5});  map.lateral(2e5, 0.3, Outside::clamp, {.direction = 0.5});
 //
 // mu is even in v: mu(p, -v) = mu(p, v); the traction is odd, and 0 at v = 0 and where p <= 0, whatever the map's box.
@@ -50,14 +51,14 @@
 //    12  u32 version of this layout, 4; those before it were of no release
 //    16  u64 size of the file
 //    24  f64 pressure lo, hi [Pa], velocity lo, hi [m/s], T0 lo, hi [K]: the box. T0 is 0 without heat, lo = hi where
-//            the map is for a single one. Of a map that knows directions, which has no heat, 0 and pi [rad] are in the
-//            place of T0, and angles in that of temperatures in all that follows; both are 0 where it is for one
+//            the map is for a single one. Of a map that takes the direction, which has no heat, 0 and pi [rad] are in
+//            the place of T0, and angles in that of temperatures in all that follows; both are 0 where it is for one
 //    72  f64 rtol asked for; max_error: twice the largest relative error of mu_H and A/A0 on the points on which the
 //            map was certified, 12 a cell that it was not made from and a lattice; the largest on the points of the
 //            check that followed; relative error that s0 of this file makes in mu, which 99 % of points and distances
 //            keep, 0 without heat
 //   104  f64 tau_f0 [Pa] (0: no adhesion), v0 [m/s], c [-]
-//   128  u64 number of points of that check; how many were off by more than max_error; bytes of the map without heat
+//   128  u64 number of points of that check; how many were off by more than max_error; bytes of the maps inside
 //   152  u32 1 with hysteresis, 0 without (a rubber that loses nothing), 2 more for a slanted map, and 4 more for one
 //            with forces across; n bands, from
 //            1 to 64; s nodes of s(x), 0 or from 2 on; m temperatures between which cells have polynomials, 1 where
@@ -77,8 +78,9 @@
 //        c x (2 + 32 k) f64, k = 1 where m is 1, else 4 (m - 1): x, z of a corner, then 32 coefficients for each power
 //            0 to 3 of T0 - T_i on each step i of T0: of (x - x0)^i (z - z0)^j at 8 j + 2 i for ln mu_H, at
 //            8 j + 2 i + 1 for ln A/A0
-//        the map without heat of one with it, a whole file; of one with forces across that of lateral / mu_H, which
-//            stands in the place of ln mu_H there, beside zeros
+//        the map without heat of one with it, a whole file, for the same direction; then of one with forces across that
+//            of lateral / mu_H, which stands in the place of ln mu_H there, beside zeros: with heat with the same s0,
+//            and without a map inside
 //        t   text, lines of UTF-8: what the map was made of
 //        zeros up to a multiple of 8 after the entries and after the text
 //        u32 CRC-32 (that of zip and PNG) of all before; u32 0
@@ -342,6 +344,8 @@ struct Grid {
 
 class Reader;
 struct Head;
+/// What a file is: a map, or inside of one the map without heat or that of forces across.
+enum class Part { outer, cold, across };
 
 constexpr std::uint32_t layout = 4;
 constexpr std::size_t head_size = 192;
@@ -376,7 +380,7 @@ struct MapTemperature {
   bool shifts_adhesion = false;             // the adhesion too, as if v0 were v0 / a_T
   double background = 0;                    // T0 [K]; 0: the only one that the map has
   double distance = map_detail::long_slid;  // slid since rest [m]
-  double direction = 0;                     // of sliding [rad], of a map that knows directions; others ignore it
+  double direction = 0;                     // of sliding [rad], of a map that takes it; others ignore it
 };
 
 struct MapPoint {
@@ -445,7 +449,7 @@ class FrictionMap {
                blend(point.contact_area, cold.contact_area),
                blend(point.dmu_dlnp, cold.dmu_dlnp),
                blend(point.dmu_dlnv, cold.dmu_dlnv) + by_v,
-               0};
+               blend(point.lateral, cold.lateral)};
     }
     return at.status;
   }
@@ -949,6 +953,10 @@ class FrictionMap {
 
   [[nodiscard]] Where across_place(const Where& at) const noexcept {
     Where across = at;
+    if (is_slanted_) {
+      across_->slant(at.x, at.ln_p, across);
+      return across;
+    }
     const double z = at.ln_p - across_->log_modulus_offset(at.x, across.slope);
     across.cell = across_->cell_at(at.x, z, across.dx, across.dz);
     if (across_->steps_ > 0) across_->set_step(at.background, across);
@@ -1174,7 +1182,7 @@ class FrictionMap {
   }
 
   /// From the bytes of a file, maybe of one inside of another; what is wrong with them, or nothing.
-  std::string take(const unsigned char* bytes, std::size_t size, bool is_inside);
+  std::string take(const unsigned char* bytes, std::size_t size, map_detail::Part part);
   bool take_tables(map_detail::Reader& in, const map_detail::Head& head);
   bool take_grids(map_detail::Reader& in, const map_detail::Head& head);
 
@@ -1272,10 +1280,10 @@ class Reader {
 struct Head {
   std::uint32_t flags = 0, bands = 0, offsets = 0, nodes = 0, columns = 0, rows = 0;
   std::uint32_t grids = 0, entries = 0, cells = 0, text = 0;
-  unsigned long long cold = 0;  // bytes
+  unsigned long long inside = 0;  // bytes of maps
 
   /// From a file of that many bytes; false where it contradicts itself.
-  bool read(Reader& in, FrictionMapInfo& info, std::uint64_t size) noexcept {
+  bool read(Reader& in, FrictionMapInfo& info, std::uint64_t size, Part part) noexcept {
     constexpr double tiny = 1e-300, huge = 1e300;
     bool good = in.numbers({&info.pressure[0], &info.pressure[1], &info.velocity[0], &info.velocity[1]}, tiny, huge);
     good = in.numbers({&info.temperature[0], &info.temperature[1]}, 0, 1e6) && good;
@@ -1285,12 +1293,12 @@ struct Head {
            good;
     info.checked = in.u64();
     info.exceeded = in.u64();
-    cold = in.u64();
+    inside = in.u64();
     for (std::uint32_t* const n : {&flags, &bands, &offsets, &nodes, &columns, &rows, &grids, &entries, &cells, &text})
       *n = in.u32();
     constexpr std::uint32_t most = 9999;
     good = good && flags < 8 && bands > 0 && bands <= most_bands && offsets != 1 && grids >= bands && entries > 0 &&
-           cells > 0 && nodes > 0 && nodes <= most && columns <= most && rows <= most && cold < size;
+           cells > 0 && nodes > 0 && nodes <= most && columns <= most && rows <= most && inside < size;
     info.hysteresis = (flags & 1) != 0;
     info.heat = columns > 0;
     info.turns = !info.heat && nodes > 1;
@@ -1298,8 +1306,8 @@ struct Head {
     info.temperatures = info.heat ? nodes : 0;
     info.cells = cells;
     const bool law_fits = info.shear_stress == 0 || (info.shear_stress >= tiny && info.reference_velocity >= tiny);
-    return good && sides_fit(info) && heat_fits(info) && law_fits && (!is_slanted() || (nodes > 1 && bands == 3)) &&
-           bytes() == size;
+    return good && sides_fit(info) && heat_fits(info, part) && law_fits &&
+           (!is_slanted() || (nodes > 1 && bands == 3)) && bytes() == size;
   }
 
   [[nodiscard]] bool is_slanted() const noexcept { return (flags & 2) != 0; }
@@ -1321,21 +1329,21 @@ struct Head {
     constexpr double least = 1 + 1e-9;
     return info.pressure[1] > info.pressure[0] * least && info.velocity[1] > info.velocity[0] * least;
   }
-  [[nodiscard]] bool heat_fits(const FrictionMapInfo& info) const noexcept {
+  [[nodiscard]] bool heat_fits(const FrictionMapInfo& info, Part part) const noexcept {
     const auto [lo, hi] = info.temperature;
     constexpr double half_turn = 3.141592653589793;
-    const bool has_inside = cold >= head_size + 8 && cold % 8 == 0;
+    const int maps = part == Part::across ? 0 : (info.heat ? 1 : 0) + (info.directional ? 1 : 0);
+    if (inside % 8 != 0 || (maps == 0 ? inside > 0 : inside < maps * (head_size + 8ull))) return false;
+    if (part == Part::across ? info.directional : part == Part::cold && info.turns) return false;
     if (!info.heat)
-      return lo == 0 && hi == (nodes > 1 ? half_turn : 0) && info.memory_error == 0 && rows == 0 && !is_slanted() &&
-             (info.directional ? has_inside : cold == 0);
-    return lo >= 1 && (nodes == 1 ? lo == hi && rows == 1 : lo + 1e-3 <= hi && rows > 1) && columns > 1 &&
-           offsets == 0 && has_inside && !info.directional;
+      return lo == 0 && hi == (nodes > 1 ? half_turn : 0) && info.memory_error == 0 && rows == 0 && !is_slanted();
+    return lo >= 1 && (nodes == 1 ? lo == hi && rows == 1 : lo + 1e-3 <= hi && rows > 1) && columns > 1 && offsets == 0;
   }
   [[nodiscard]] std::uint64_t bytes() const noexcept {
     const std::uint64_t numbers = shifts() + 2ull * columns * rows + bands + 1 + 2ull * offsets + 6ull * grids +
                                   (1ull * corner_size + cell_size()) * cells;
     const std::uint64_t of_entries = 4ull * entries;
-    return head_size + 8 * numbers + of_entries + padding(of_entries) + cold + text + padding(text) + 8;
+    return head_size + 8 * numbers + of_entries + padding(of_entries) + inside + text + padding(text) + 8;
   }
 };
 
@@ -1383,13 +1391,13 @@ inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<
 
 inline bool FrictionMap::read(const void* data, std::size_t size, std::string& why) {
   FrictionMap map;
-  why = map.take(static_cast<const unsigned char*>(data), size, false);
+  why = map.take(static_cast<const unsigned char*>(data), size, map_detail::Part::outer);
   if (!why.empty()) return false;
   *this = std::move(map);
   return true;
 }
 
-inline std::string FrictionMap::take(const unsigned char* bytes, std::size_t size, bool is_inside) {
+inline std::string FrictionMap::take(const unsigned char* bytes, std::size_t size, map_detail::Part part) {
   if (size < 8 || std::memcmp(bytes, "ASPERMAP", 8) != 0) return "is no friction map: it begins otherwise";
   if (size < map_detail::head_size + 8) return "is truncated: " + std::to_string(size) + " bytes";
   map_detail::Reader in(bytes + 8);
@@ -1406,19 +1414,34 @@ inline std::string FrictionMap::take(const unsigned char* bytes, std::size_t siz
   if (map_detail::Reader(bytes + size - 8).u64() != map_detail::crc32(bytes, size - 8))  // its upper half is 0
     return "is damaged: its checksum is not that of its contents";
   map_detail::Head head;
-  if (!head.read(in, info_, size)) return "is damaged: its head contradicts itself";
-  if (is_inside && head.cold > 0) return "has one too";
+  if (!head.read(in, info_, size, part)) return "is damaged: its head contradicts itself";
+  if (part == map_detail::Part::cold && info_.heat) return "has one too";
   is_slanted_ = head.is_slanted();
   if (!take_tables(in, head)) return "is damaged: its tables contradict each other";
-  if (head.cold > 0) {
+  using map_detail::Part;
+  auto left = static_cast<std::size_t>(head.inside);
+  for (const Part of : {Part::cold, Part::across}) {
+    if (part == Part::across || !(of == Part::cold ? info_.heat : info_.directional)) continue;
+    // the first of two says how long it is
+    std::size_t length = left;
+    if (of == Part::cold && info_.directional) {
+      const std::uint64_t stated_length = map_detail::Reader(in.skip(0) + 16).u64();
+      if (stated_length % 8 != 0 || stated_length > left - map_detail::head_size - 8)
+        return "is damaged: its maps differ";
+      length = static_cast<std::size_t>(stated_length);
+    }
     auto inside = std::make_shared<FrictionMap>();
-    const auto inside_size = static_cast<std::size_t>(head.cold);
-    const std::string reason = inside->take(in.skip(inside_size), inside_size, true);
+    const std::string reason = inside->take(in.skip(length), length, of);
+    left -= length;
     if (!reason.empty())
-      return std::string("is damaged: its map ") + (info_.heat ? "without heat " : "of forces across ") + reason;
-    if (info_.directional && inside->info_.temperature != info_.temperature) return "is damaged: its maps differ";
-    (info_.heat ? cold_ : across_) = std::move(inside);
+      return std::string("is damaged: its map ") + (of == Part::cold ? "without heat " : "of forces across ") + reason;
+    const bool fits = of == Part::cold ? inside->info_.directional == info_.directional
+                                       : inside->info_.temperature == info_.temperature &&
+                                             inside->info_.heat == info_.heat && inside->is_slanted_ == is_slanted_;
+    if (!fits) return "is damaged: its maps differ";
+    (of == Part::cold ? cold_ : across_) = std::move(inside);
   }
+  if (left > 0) return "is damaged: its maps differ";
   info_.text.assign(reinterpret_cast<const char*>(in.skip(head.text)), head.text);
   return {};
 }

@@ -190,28 +190,36 @@ unsigned threads_of(const MapRequest& request) {
 /// heat.
 constexpr double sampling_share = 0.2;
 
-/// What goes with the heat of a map of these heights, telling how far it is.
-using WithHeat = std::function<MapHeatTables(const std::vector<double>&, const std::function<void(double)>&)>;
+/// What goes with the heat of a map: ln a_T at its heights, and the rest from that, telling how far it is.
+struct WithHeat {
+  std::function<std::vector<double>(const std::vector<double>&)> shift;
+  std::function<MapHeatTables(const std::vector<double>&, const std::function<void(double)>&)> tables;
+};
 
 /// Refines a map, adds to it what goes with its heat, and checks the finished file.
 std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhesion>& adhesion,
-                                const MapRequest& request, const WithHeat& with_heat = {}) {
+                                const MapRequest& request, const WithHeat* with_heat = nullptr) {
   const unsigned threads = threads_of(request);
   const double sampled = request.checked == 0 ? 1 : sampling_share;
-  const double refining = with_heat || frame.directional() ? sampled / 2 : sampled;
+  const double parts = 1.0 + (with_heat ? 1 : 0) + (frame.directional() ? 1 : 0), refining = sampled / parts;
   const RefinedMap refined = refine(frame, request.rtol, threads, part_of(request.progress, 0, refining));
-  std::optional<MapHeatTables> heat;
-  if (with_heat) heat = with_heat(refined.heights, part_of(request.progress, refining, sampled));
+  MapHeatTables beside;
+  if (with_heat)
+    beside = with_heat->tables(with_heat->shift(refined.heights), part_of(request.progress, refining, 2 * refining));
   MapCertificate certificate{.max_error = refined.max_error};
   if (frame.directional()) {
     const MapFrame across = frame.of_across();
-    const RefinedMap forces = refine(across, request.rtol, threads, part_of(request.progress, refining, sampled));
+    const RefinedMap forces =
+        refine(across, request.rtol, threads, part_of(request.progress, sampled - refining, sampled));
     certificate.max_error = std::fmax(refined.max_error, forces.max_error);
     MapRequest silent = request;
     silent.text = {};
-    heat.emplace().cold = map_file(across, forces, {}, silent, {.max_error = forces.max_error});
+    MapHeatTables of_forces;
+    of_forces.sliding = beside.sliding;
+    if (with_heat) of_forces.shift = with_heat->shift(forces.heights);
+    beside.across = map_file(across, forces, {}, silent, {.max_error = forces.max_error}, of_forces);
   }
-  const auto file = [&] { return map_file(frame, refined, adhesion, request, certificate, heat ? &*heat : nullptr); };
+  const auto file = [&] { return map_file(frame, refined, adhesion, request, certificate, beside); };
   if (request.checked == 0) return file();
   check(frame, file(), request, threads, part_of(request.progress, sampled, 1), certificate);
   return file();
@@ -243,10 +251,10 @@ std::array<double, 2> shifted_box(std::array<double, 2> velocity, const std::vec
   return {velocity[0] * std::exp(lowest), velocity[1] * std::exp(highest)};
 }
 
-}  // namespace
-
-std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& given,
-                                              const std::optional<Adhesion>& adhesion, const MapRequest& request) {
+/// `turns`: in all directions that the spectrum knows.
+std::vector<unsigned char> without_heat(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& given,
+                                        const std::optional<Adhesion>& adhesion, const MapRequest& request,
+                                        bool turns) {
   check_request(request, adhesion);
   ContactModel model = given;
   if (const auto* const scan = std::get_if<ScanContact>(&given.correction))
@@ -256,7 +264,15 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
       text_of(friction(spectrum, rubber, model, adhesion, at.pressure, at.velocity).notes, request);
   MapRequest whole = request;
   whole.text = text;
-  return made(MapFrame(spectrum, rubber, model, request), adhesion, whole);
+  const MapFrame frame(spectrum, rubber, model, request);
+  return made(turns ? frame : frame.in_one_direction(), adhesion, whole);
+}
+
+}  // namespace
+
+std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                                              const std::optional<Adhesion>& adhesion, const MapRequest& request) {
+  return without_heat(spectrum, rubber, model, adhesion, request, true);
 }
 
 std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Rubber& rubber,
@@ -265,7 +281,6 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
                                               std::array<double, 2> temperature, const MapRequest& request) {
   check_request(request, adhesion);
   check_temperature(temperature);
-  refuse_directions(spectrum, "map with heat");
   check_gauss(model.method, "in a map with heat, whose sliding lengths GSL's methods do not know");
   if (macro_modulus(model.correction, spectrum, rubber, request.velocity[0], model.poisson_ratio))
     throw InvalidInput(
@@ -287,25 +302,29 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
 
   const MapHeat heat{&shift, &heating, adhesion, temperature, temperature[0]};
   const MapFrame frame(spectrum, rubber, model, request, heat);
-  const auto tables = [&](const std::vector<double>& heights, const std::function<void(double)>& progress) {
+  const auto shift_of = [&](const std::vector<double>& heights) {
+    if (!frame.slant()) return shifts(shift, heights, temperature[0]);
+    const auto [a, b] = frame.slant()->coefficients();
+    return std::vector{a, b};
+  };
+  const auto tables = [&](const std::vector<double>& log_a_T, const std::function<void(double)>& progress) {
     MapHeatTables result;
+    result.shift = log_a_T;
     MapRequest cold = request;
     if (frame.slant()) {
-      const auto [a, b] = frame.slant()->coefficients();
-      result.shift = {a, b};
       for (std::size_t i = 0; i < 2; ++i) cold.velocity[i] *= std::exp(frame.slant()->log_a_T()[i]);
     } else {
-      result.shift = shifts(shift, heights, temperature[0]);
-      const double step = (temperature[1] - temperature[0]) / std::max(1.0, static_cast<double>(heights.size() - 1));
-      cold.velocity = shifted_box(request.velocity, result.shift, step);
+      const double steps = static_cast<double>(log_a_T.size()) / 2 - 1;
+      cold.velocity = shifted_box(request.velocity, log_a_T, (temperature[1] - temperature[0]) / std::fmax(1, steps));
     }
     cold.progress = {};  // a second or two
     const Rubber at_lowest = shifted(rubber, shift, temperature[0]);
-    result.cold = build_friction_map(spectrum, at_lowest, model, adhesion, cold);
+    result.cold = without_heat(spectrum, at_lowest, model, adhesion, cold, false);
     result.sliding = sliding_table(spectrum, rubber, model, heat, request, threads_of(request), progress);
     return result;
   };
-  return made(frame, adhesion, whole, tables);
+  const WithHeat with_heat{shift_of, tables};
+  return made(frame, adhesion, whole, &with_heat);
 }
 
 }  // namespace asperity

@@ -125,11 +125,10 @@ std::vector<std::array<double, 32>> blocks(const MapTree::Leaf& leaf, const std:
 
 std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& refined,
                                     const std::optional<Adhesion>& adhesion, const MapRequest& request,
-                                    const MapCertificate& certificate, const MapHeatTables* heat) {
+                                    const MapCertificate& certificate, const MapHeatTables& warm) {
   const MapTree& tree = refined.tree;
   const Index index(tree);
   const Adhesion law = adhesion.value_or(Adhesion{.shear_stress = 0});
-  const MapHeatTables warm = heat == nullptr ? MapHeatTables{} : *heat;
   Writer out;
   out.text("ASPERMAP");
   out.u32(0x01020304);
@@ -141,7 +140,8 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
   for (const double x : {request.rtol, certificate.max_error, certificate.largest_checked_error, warm.sliding.error,
                          law.shear_stress, law.reference_velocity, law.width})
     out.f64(x);
-  for (const std::size_t n : {certificate.checked, certificate.exceeded, warm.cold.size()}) out.u64(n);
+  for (const std::size_t n : {certificate.checked, certificate.exceeded, warm.cold.size() + warm.across.size()})
+    out.u64(n);
   const bool has_across = frame.hysteresis() && frame.directional();
   const std::size_t flags = (frame.hysteresis() ? 1 : 0) + (frame.slant() ? 2 : 0) + (has_across ? 4 : 0);
   const auto cells = static_cast<std::size_t>(index.cells);
@@ -169,7 +169,8 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
     for (const std::array<double, 32>& block : blocks(leaf, refined.heights))
       for (const double c : block) out.f64(c);
   }
-  out.bytes.insert(out.bytes.end(), warm.cold.begin(), warm.cold.end());
+  for (const auto* const inside : {&warm.cold, &warm.across})
+    out.bytes.insert(out.bytes.end(), inside->begin(), inside->end());
   out.text(request.text);
   out.pad();
   Writer size;

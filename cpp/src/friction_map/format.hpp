@@ -112,13 +112,13 @@ struct MapCertificate {
 
 /// What the file of a map with heat, or of one that knows directions, has beside its cells.
 struct MapHeatTables {
-  std::vector<unsigned char> cold;  // the file of the map without heat, or of forces across
-  std::vector<double> shift;  // ln a_T of that map and its slope, at each of several nodes of T0; or a and b of Slant
+  std::vector<unsigned char> cold, across;  // files of the map without heat, and of forces across
+  std::vector<double> shift;  // ln a_T of the cold one and its slope, at each of several nodes of T0; or a and b of Slant
   SlidingTable sliding;
 };
 
 std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& refined,
                                     const std::optional<Adhesion>& adhesion, const MapRequest& request,
-                                    const MapCertificate& certificate, const MapHeatTables* heat = nullptr);
+                                    const MapCertificate& certificate, const MapHeatTables& beside);
 
 }  // namespace asperity

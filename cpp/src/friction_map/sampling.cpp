@@ -50,7 +50,7 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
   const auto* prony = std::get_if<PronySeries>(&rubber_);
   hysteresis_ = prony == nullptr || !prony->moduli().empty();
   const bool of_scan = std::holds_alternative<ScanContact>(model_.correction);
-  directional_ = hysteresis_ && !heat_ && (of_scan || is_directional(spectrum_));
+  directional_ = hysteresis_ && (of_scan || is_directional(spectrum_));
   turns_ = is_directional(spectrum_) && !of_scan && !heat_;  // of a scan every direction has contacts of its own
 }
 
@@ -212,6 +212,12 @@ MapFrame MapFrame::at_height(double height) const {
     other.model_.direction = other.unshifted_.direction = first_direction_ + height;
   else
     other.heat_->height = height;
+  return other;
+}
+
+MapFrame MapFrame::in_one_direction() const {
+  MapFrame other = *this;
+  other.turns_ = false;
   return other;
 }
 

@@ -154,6 +154,8 @@ class MapFrame {
   [[nodiscard]] bool turns() const { return turns_; }
   /// Whether there are forces across the sliding.
   [[nodiscard]] bool directional() const { return directional_; }
+  /// The same in the direction of the model alone.
+  [[nodiscard]] MapFrame in_one_direction() const;
   /// The same of the force across over mu_H, beside zeros, in the place of the two functions.
   [[nodiscard]] MapFrame of_across() const;
   [[nodiscard]] const std::optional<Slant>& slant() const { return slant_; }

@@ -88,8 +88,8 @@ def friction_map(
         `progress` tells how far it is.
     direction : float
         The axis [rad], from x towards y, from which look-ups count their own direction: the map of
-        a spectrum that knows directions is for all of them. With a ScanContact, which has contacts
-        of its own in each, it is the one direction of the map.
+        a spectrum that knows directions is for all of them. With heating it is the one direction of
+        the map, as with a ScanContact, which has contacts of its own in each.
     progress : callable, optional
         Called with the share of the work that is done, from 0 to 1, now and then.
 

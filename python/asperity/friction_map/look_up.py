@@ -122,8 +122,9 @@ class FrictionMap(Table):
         exp(-s / s0) after it, as `Friction.mu_at`, without heat mu does not depend on it.
     direction : array_like, optional
         Of sliding [rad], from the axis that the map was made for (`friction_map(direction=)`)
-        towards y, of a map that knows directions; by default along that axis. Half a turn changes
-        nothing. Other maps are the same in every direction.
+        towards y, of a map that takes it (`turns`); by default along that axis. Half a turn changes
+        nothing. A map for one direction, with heat or of a scan, refuses it; the others are the
+        same in every direction.
     shift_adhesion : bool
         Shift the adhesion too, as if v0 were v0 / a_T.
     outside : {"error", "nan", "clamp"}
@@ -335,6 +336,8 @@ class FrictionMap(Table):
 
     def _check(self, asked: dict[str, Any], shifts: bool) -> None:
         """Refuse what this map has not, wherever the points are."""
+        if "direction" in asked and self.directional and not self.turns:
+            raise refusal("direction", brief(asked["direction"]), "left out, this map is for one")
         if self.temperature is None:
             if "temperature" in asked:
                 result = brief(asked["temperature"])
