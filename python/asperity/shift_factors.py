@@ -66,7 +66,8 @@ class _FittedLaw(_Law):
     lowest_temperature: float | None
     highest_temperature: float | None
 
-    def _check_range(self) -> None:
+    def __post_init__(self) -> None:
+        self._take()
         ends = ("lowest_temperature", "highest_temperature")
         lowest, highest = self.lowest_temperature, self.highest_temperature
         if (lowest is None) != (highest is None):
@@ -79,6 +80,9 @@ class _FittedLaw(_Law):
                 f"positive and below highest_temperature = {highest:g}",
                 text=f"{lowest:g}",
             )
+        names = self.__match_args__
+        law = [getattr(self, name) for name in names[: names.index("standard_errors")]]
+        self._set(_core=getattr(_core, type(self).__name__)(*law))
 
 
 @value
@@ -145,11 +149,6 @@ class WlfFit(_FittedLaw):
     lowest_temperature: float | None = None
     highest_temperature: float | None = None
 
-    def __post_init__(self) -> None:
-        self._take()
-        self._check_range()
-        self._set(_core=_core.WlfFit(self.c1, self.c2, self.reference_temperature))
-
 
 @value
 class ArrheniusFit(_FittedLaw):
@@ -177,11 +176,6 @@ class ArrheniusFit(_FittedLaw):
     residual: float
     lowest_temperature: float | None = None
     highest_temperature: float | None = None
-
-    def __post_init__(self) -> None:
-        self._take()
-        self._check_range()
-        self._set(_core=_core.ArrheniusFit(self.activation_energy, self.reference_temperature))
 
 
 class HasShiftFactors(Table):

@@ -82,49 +82,32 @@ def _heights(heights: Any, axes: str) -> NDArray[Any]:
     return array.copy() if packed or not array.flags.aligned else array
 
 
+def _of_core(name: str, told: str) -> Any:
+    """Return a property: a number that the core has of the surface."""
+    return property(lambda surface: float(getattr(surface._core, name)), doc=told)
+
+
 class _Surface(Table):
     """What maps and line scans can do alike."""
 
     heights: Any
 
-    @property
-    def dropout_fraction(self) -> float:
-        """Share of the points that were not measured [-]."""
-        return float(self._core.dropout_fraction)
-
-    @property
-    def rms_height(self) -> float:
-        """Root mean square height about the mean [m]."""
-        return float(self._core.rms_height)
-
-    @property
-    def rms_slope(self) -> float:
+    dropout_fraction: float = _of_core(
+        "dropout_fraction", "Share of the points that were not measured [-]."
+    )
+    rms_height: float = _of_core("rms_height", "Root mean square height about the mean [m].")
+    rms_slope: float = _of_core(
+        "rms_slope",
         """Root mean square slope sqrt(<(dh/dx)^2> + <(dh/dy)^2>) [-].
 
         Slopes are central differences at the points whose neighbours are measured. A line scan
         has the first term alone.
-        """
-        return float(self._core.rms_slope)
-
-    @property
-    def skewness(self) -> float:
-        """Skewness <z^3> / rms^3 [-]; 0 for Gaussian heights."""
-        return float(self._core.skewness)
-
-    @property
-    def kurtosis(self) -> float:
-        """Kurtosis <z^4> / rms^4 [-]; 3 for Gaussian heights."""
-        return float(self._core.kurtosis)
-
-    @property
-    def z_max(self) -> float:
-        """Height of the highest point above the mean [m]."""
-        return float(self._core.z_max)
-
-    @property
-    def z_min(self) -> float:
-        """Height of the lowest point above the mean [m]; negative."""
-        return float(self._core.z_min)
+        """,
+    )
+    skewness: float = _of_core("skewness", "Skewness <z^3> / rms^3 [-]; 0 for Gaussian heights.")
+    kurtosis: float = _of_core("kurtosis", "Kurtosis <z^4> / rms^4 [-]; 3 for Gaussian heights.")
+    z_max: float = _of_core("z_max", "Height of the highest point above the mean [m].")
+    z_min: float = _of_core("z_min", "Height of the lowest point above the mean [m]; negative.")
 
     def height_histogram(self, *, bins: int = 100) -> tuple[Array, Array]:
         """Return how often heights occur, over equal bins.

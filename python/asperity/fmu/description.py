@@ -28,6 +28,7 @@ _ABLE_3 = {
     "canSerializeFMUState": "true",
     "providesDirectionalDerivatives": "true",
 }
+_COMPUTED = ("output", "calculatedParameter")
 _VARIABILITY = {"parameter": "tunable", "calculatedParameter": "fixed"}
 
 
@@ -46,7 +47,23 @@ def description(
     root.set("description", f"{_DESCRIPTION}; {binaries}source for any platform")
     root.set("generationTool", f"asperity {_core.__version__}")
     root.set("variableNamingConvention", "structured")
-    (_version_2 if fmi == "2.0" else _version_3)(root, name, tuple(variables), points)
+    able = _ABLE if fmi == "2.0" else _ABLE_3
+    simulation = SubElement(root, "CoSimulation", {"modelIdentifier": name, **able})
+    if fmi == "2.0":
+        SubElement(SubElement(simulation, "SourceFiles"), "File", {"name": "fmu.cpp"})
+    definitions = SubElement(root, "UnitDefinitions")
+    for unit, powers in {**_UNITS, "s": {"s": 1}}.items():
+        one = SubElement(definitions, "Unit", {"name": unit})
+        SubElement(one, "BaseUnit", {base: str(power) for base, power in powers.items()})
+    categories = SubElement(root, "LogCategories")
+    for category in ("logStatusWarning", "logStatusError"):
+        SubElement(categories, "Category", {"name": category})
+    SubElement(root, "DefaultExperiment", {"startTime": "0", "stopTime": "1", "stepSize": "0.001"})
+    (_version_2 if fmi == "2.0" else _version_3)(root, tuple(variables), points)
+    return _text(root)
+
+
+def _text(root: Element) -> bytes:
     ElementTree.indent(root)
     text: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
     return text + b"\n"
@@ -58,19 +75,10 @@ def build_description(name: str) -> bytes:
     configuration = SubElement(root, "BuildConfiguration", {"modelIdentifier": name})
     files = SubElement(configuration, "SourceFileSet", {"language": "C++17"})
     SubElement(files, "SourceFile", {"name": "fmu.cpp"})
-    ElementTree.indent(root)
-    text: bytes = ElementTree.tostring(root, encoding="utf-8", xml_declaration=True)
-    return text + b"\n"
+    return _text(root)
 
 
-def _version_2(
-    root: Element, name: str, variables: tuple[Variable, ...], points: int | None
-) -> None:
-    simulation = SubElement(root, "CoSimulation", {"modelIdentifier": name, **_ABLE})
-    SubElement(SubElement(simulation, "SourceFiles"), "File", {"name": "fmu.cpp"})
-    _units(root)
-    _log_categories(root)
-    SubElement(root, "DefaultExperiment", {"startTime": "0", "stopTime": "1", "stepSize": "0.001"})
+def _version_2(root: Element, variables: tuple[Variable, ...], points: int | None) -> None:
     listed = SubElement(root, "ModelVariables")
     index: dict[tuple[str, int], int] = {}
     for i, (variable, full_name, reference, point) in enumerate(scalars(variables, points)):
@@ -95,17 +103,11 @@ def _version_2(
         unknown = {"index": str(number), "dependencies": " ".join(map(str, sorted(needed)))}
         if variable.causality == "output":
             SubElement(outputs, "Unknown", unknown)
-        if variable.causality in ("output", "calculatedParameter"):
+        if variable.causality in _COMPUTED:
             SubElement(initial, "Unknown", unknown)
 
 
-def _version_3(
-    root: Element, name: str, variables: tuple[Variable, ...], points: int | None
-) -> None:
-    SubElement(root, "CoSimulation", {"modelIdentifier": name, **_ABLE_3})
-    _units(root)
-    _log_categories(root)
-    SubElement(root, "DefaultExperiment", {"startTime": "0", "stopTime": "1", "stepSize": "0.001"})
+def _version_3(root: Element, variables: tuple[Variable, ...], points: int | None) -> None:
     listed = SubElement(root, "ModelVariables")
     time = {"name": "time", "valueReference": str(TIME), "causality": "independent"}
     SubElement(listed, "Float64", {**time, "variability": "continuous", "unit": "s"})
@@ -123,40 +125,21 @@ def _version_3(
             SubElement(one, "Dimension", {"start": str(points)})
     structure = SubElement(root, "ModelStructure")
     references = {variable.name: str(variable.reference) for variable in variables}
-    for tag, causalities in (
-        ("Output", ("output",)),
-        ("InitialUnknown", ("output", "calculatedParameter")),
-    ):
+    for tag, causalities in (("Output", ("output",)), ("InitialUnknown", _COMPUTED)):
         for variable in variables:
             if variable.causality in causalities:
                 needed = " ".join(references[other] for other in variable.depends_on)
-                SubElement(
-                    structure,
-                    tag,
-                    {"valueReference": references[variable.name], "dependencies": needed},
-                )
+                unknown = {"valueReference": references[variable.name], "dependencies": needed}
+                SubElement(structure, tag, unknown)
 
 
 def _common(one: Element, variable: Variable) -> None:
     one.set("causality", variable.causality)
     usual = "continuous" if variable.kind == "real" else "discrete"
     one.set("variability", _VARIABILITY.get(variable.causality, usual))
-    if variable.causality in ("output", "calculatedParameter"):
+    if variable.causality in _COMPUTED:
         one.set("initial", "calculated")
     one.set("description", variable.description)
-
-
-def _units(root: Element) -> None:
-    definitions = SubElement(root, "UnitDefinitions")
-    for name, powers in {**_UNITS, "s": {"s": 1}}.items():
-        unit = SubElement(definitions, "Unit", {"name": name})
-        SubElement(unit, "BaseUnit", {base: str(power) for base, power in powers.items()})
-
-
-def _log_categories(root: Element) -> None:
-    categories = SubElement(root, "LogCategories")
-    for name in ("logStatusWarning", "logStatusError"):
-        SubElement(categories, "Category", {"name": name})
 
 
 def _written(start: float | bool) -> str:

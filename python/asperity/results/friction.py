@@ -175,12 +175,11 @@ class Friction(Table):
 
     def _columns(self) -> Columns:
         axes, sweeps = _axes(self)
-        coordinates = {
-            name: Column(*one, *_said(name)) for name, one in sweeps.items() if name in axes
-        }
+        swept = sweeps.items()
+        coordinates = {name: Column(*one, *MEANINGS[name]) for name, one in swept if name in axes}
         variables = {
-            name: Column(axes, getattr(self, name), *_said(name))
-            for name in (*COLUMNS, *OPTIONAL)
+            name: Column(axes, getattr(self, name), *said)
+            for name, said in MEANINGS.items()
             if name not in coordinates and getattr(self, name) is not None
         }
         if self.cold is not None:
@@ -218,7 +217,12 @@ HEAT = {
     "branches": ("1", "number of steady states"),
 }
 OPTIONAL = {"direction": ("rad", "direction of sliding, from x towards y"), **HEAT}
-COLUMNS = tuple(name for name, one in Friction.__dataclass_fields__.items() if one.metadata)
+COLUMNS = {
+    name: (one.metadata["unit"], one.metadata["meaning"])
+    for name, one in Friction.__dataclass_fields__.items()
+    if one.metadata
+}
+MEANINGS = COLUMNS | OPTIONAL
 
 
 def small_friction_notes(mu: ArrayLike) -> tuple[Note, ...]:
@@ -240,7 +244,7 @@ def joined(
     `places` are those of the points, one part after another; by default they are in order.
     """
     first = parts[0]
-    names = [name for name in (*COLUMNS, *OPTIONAL) if getattr(first, name) is not None]
+    names = [name for name in MEANINGS if getattr(first, name) is not None]
     order = slice(None) if places is None else np.argsort(places)
     columns = {
         name: frozen(np.concatenate([np.ravel(getattr(part, name)) for part in parts])[order])
@@ -249,13 +253,6 @@ def joined(
     cold = None if first.cold is None else joined([known(part.cold) for part in parts], shape)
     shaped = {name: column.reshape(shape) for name, column in columns.items()}
     return Friction._made(shaped, cold=cold, preparation=first.preparation)
-
-
-def _said(name: str) -> tuple[str, str]:
-    if name in OPTIONAL:
-        return OPTIONAL[name]
-    metadata = Friction.__dataclass_fields__[name].metadata
-    return metadata["unit"], metadata["meaning"]
 
 
 def _axes(result: Friction) -> tuple[tuple[str, ...], dict[str, tuple[tuple[str, ...], Array]]]:

@@ -287,22 +287,13 @@ def _at_temperature(
     """The master curve, or the Prony series through it, as it is at the scene's temperature."""
     curve = build.master_curve.shifted(shift_factor(path, build, values))
     if values.get("vertical_shift") == "T/T_ref":
-        curve = _stiffer(curve, values["temperature_k"] / values["reference_temperature_k"])
+        b_t = values["temperature_k"] / values["reference_temperature_k"]
+        moduli = {"storage_modulus": curve.storage_modulus, "loss_modulus": curve.loss_modulus}
+        curve = replace(curve, **{name: b_t * modulus for name, modulus in moduli.items()})
     if not values.get("prony", False):
         return curve
     with rename_in_errors(path, {"residual": "[rubber] prony"}):
         return quiet_prony(curve, "prony" if beyond == "prony" else None)
-
-
-def _stiffer(curve: MasterCurve, b_t: float) -> MasterCurve:
-    """E(w; T) = b_T E(a_T w; T_ref) beyond its horizontal shift."""
-    return MasterCurve(
-        angular_frequency=curve.angular_frequency,
-        storage_modulus=b_t * curve.storage_modulus,
-        loss_modulus=b_t * curve.loss_modulus,
-        extrapolation=curve.extrapolation,
-        notes=curve.notes,
-    )
 
 
 def quiet_prony(

@@ -1,5 +1,6 @@
 """The strain of each magnification in a scene: factors of the modulus, or strain sweeps."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from asperity.io.fields import (
     text,
 )
 from asperity.io.read_dma import read_strain_sweep
-from asperity.sweeps import StrainFactors, StrainSweep, strain_factors
+from asperity.sweeps import StrainFactors, strain_factors
 
 BY_MAGNIFICATION = "by-magnification"
 # what the strain of a file is, and how often the amplitude it holds
@@ -82,16 +83,6 @@ def build_strain(path: Path, values: dict[str, Any]) -> StrainFactors | None:
             for name in values["strain_sweeps"]
         ]
         return strain_factors(
-            [_amplitudes(sweep, KINDS[kind]) for sweep in sweeps],
+            [replace(sweep, strain=sweep.strain / KINDS[kind]) for sweep in sweeps],
             **arguments(values, {**_REFERENCE, **_PER_SLOPE}),
         )
-
-
-def _amplitudes(sweep: StrainSweep, times: int) -> StrainSweep:
-    return StrainSweep(
-        temperature=sweep.temperature,
-        angular_frequency=sweep.angular_frequency,
-        strain=sweep.strain / times,
-        storage_modulus=sweep.storage_modulus,
-        loss_modulus=sweep.loss_modulus,
-    )

@@ -14,7 +14,7 @@ from asperity._core import InvalidInput, __version__
 from asperity.base.arguments import brief
 from asperity.base.diagnostics import Argument, Note, must_be, refusal
 from asperity.io.fields import nearest
-from asperity.results.friction import COLUMNS, HEAT, Friction
+from asperity.results.friction import COLUMNS, HEAT
 from asperity.scene.keys import FILES, files_of
 from asperity.scene.scene import check_tables
 from asperity.sweep.axes import POINTS, PRESSURE, Axis, axes_of, with_values
@@ -25,14 +25,9 @@ MOST_POINTS = 2**19  # of a task: what a worker sends back at once, 4 MB a varia
 _SECONDS = 1.0  # that a task is to take
 _LONG = 100  # values of an axis that a store's inputs hold; of longer ones their digest
 
-_UNITS = {
-    name: (one.metadata["unit"], one.metadata["meaning"])
-    for name, one in Friction.__dataclass_fields__.items()
-    if one.metadata
-}
 PLAIN = tuple(name for name in COLUMNS if name not in ("pressure", "velocity"))
 MEANINGS = {
-    **{name: _UNITS[name] for name in PLAIN},
+    **{name: COLUMNS[name] for name in PLAIN},
     **HEAT,
     "temperature": ("K", "temperature of the roughness at q1"),
     "mu_cold": ("1", "friction coefficient without its heat"),
@@ -88,11 +83,7 @@ class Plan:
 
     def part(self, axes: tuple[Axis, ...], start: tuple[int, ...]) -> Task:
         """A task of some of the values of each axis, with the digests that it needs."""
-        used = set(files_of(self.task.tables))
-        for axis in axes:
-            for key in FILES:
-                for value in axis.values.get(key, ()):
-                    used |= set(value if isinstance(value, list) else [value])
+        used = set(_all_files(self.task.tables, axes))
         digests = {file: sha for file, sha in self.task.digests.items() if file in used}
         return replace(self.task, axes=axes, start=start, digests=digests)
 

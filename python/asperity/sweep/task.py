@@ -71,12 +71,10 @@ class Task:
 
         A band needs all pressures at all velocities. With heat a call has one pressure.
         """
-        return [i for i, axis in enumerate(self.axes) if self._is_moved(axis)]
-
-    def _is_moved(self, axis: Axis) -> bool:
+        points = [(i, axis.values) for i, axis in enumerate(self.axes) if axis.of_points]
         if self.wants_band:
-            return axis.of_points and len(axis.values) == 1
-        return axis.of_points and (VELOCITY in axis.values or not self.has_heat)
+            return [i for i, values in points if len(values) == 1]
+        return [i for i, values in points if VELOCITY in values or not self.has_heat]
 
 
 def compute(task: Task) -> Outcome:
