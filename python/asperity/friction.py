@@ -117,8 +117,8 @@ def friction(
         hottest.
     gradients : bool
         Also give the slopes of mu over all of these, as `.gradients`, at the cost of some ten
-        curves. Not with GSL's methods, a spectrum that knows directions, or `ScanContact` and
-        heating at once.
+        curves; with `ScanContact` and heating at that of six more contacts a point. Not with GSL's
+        methods.
     direction : array_like
         Of sliding [rad], from x (a map's second axis) towards y (its first); broadcasts with
         pressure and velocity. It matters to `ScanContact`, whose scan is turned,
@@ -201,7 +201,8 @@ def friction(
         result = _made(core_result, shape, (*solid.notes, *absurd, *along_x), turned)
         if slopes:
             of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t, None, which)
-            result = _with(result, gradients=gradients_of_core(of, shape))
+            noted = (*result.notes, *_held_ratio(correction))
+            result = _with(result, gradients=gradients_of_core(of, shape), notes=noted)
         if t is None:
             return result
         notes = (*result.notes, *law_notes(law, t))
@@ -230,9 +231,21 @@ def friction(
     if slopes:
         of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t, core, which)
         extras["gradients"] = gradients_of_core(of, shape)
+        result = _with(result, notes=(*result.notes, *_held_ratio(correction)))
     extras["sliding_length"] = lambda: _shaped(length(), shape)
     extras["notes"] = (*result.notes, *law_notes(law, np.append(t, hottest)))
     return _with(result, **extras)
+
+
+def _held_ratio(correction: Correction | None) -> tuple[Note, ...]:
+    """Return what there is to say of the slopes of a scan."""
+    if not isinstance(correction, ScanContact):
+        return ()
+    text = (
+        "slopes over pressure, velocity and temperature are those of the scan's contacts; "
+        "all others hold their ratio to PartialContact"
+    )
+    return (Note(text, code="held-ratio"),)
 
 
 def _with(result: Friction, **more: Any) -> Friction:

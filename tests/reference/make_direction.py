@@ -32,6 +32,7 @@ from steffen import Table
 
 SURFACE = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 1e6}
 CURVE = sampled(-4, 10, 3)
+RUBBERS = {"prony": SBR, "curve": CURVE}
 RATIOS, ANGLES = (1.0, 2.0, 3.0, 6.0), (0, 15, 30, 45, 60, 75, 90)
 CONDITIONS = {"prony": ((1e-4, 2e5), (0.1, 1e6)), "curve": ((1e-3, 5e4), (1.0, 2e6))}
 LAY = 20.0  # degrees
@@ -59,9 +60,9 @@ def circle_in_phi(w, knots):
 
 def modulus_of(rubber):
     """Return the modulus as a function of the frequency, and its knots."""
-    if rubber == "prony":
-        return lambda w: tables.prony(w, *SBR.values()), np.array([])
-    knots, curve = np.array(CURVE[0]), Table(*CURVE)
+    if isinstance(rubber, dict):
+        return lambda w: tables.prony(w, *rubber.values()), np.array([])
+    knots, curve = np.array(rubber[0]), Table(*rubber)
     x, cubics = np.log(knots), [np.array(c, dtype=float) for c in curve.cubics]
 
     def modulus(w):
@@ -100,9 +101,9 @@ class Plane:
         return result.reshape(3, len(shapes), *frequencies.shape)
 
 
-def shape_of(ratio, angle):
+def shape_of(ratio, angle, hurst=SURFACE["hurst"]):
     """Return C over its mean, at angles from a velocity `angle` degrees off the lay."""
-    power = -1 - SURFACE["hurst"]
+    power = -1 - hurst
 
     def law(phi):
         a = phi + np.radians(angle)
@@ -133,11 +134,11 @@ def edges_of(start, end, knots, places, first, growth, longest):
     return np.concatenate([[start], edges, [end]])
 
 
-def solve(rubber, circle, velocity, pressure, shapes, method):
+def solve(rubber, circle, velocity, pressure, shapes, method, surface=SURFACE):
     """Return G, area, mu along and across without correction, the same and kappa by the rule."""
     rule, first, growth, longest, moments, end_of, root = method
-    q0, q1, h = SURFACE["q0"], SURFACE["q1"], SURFACE["hurst"]
-    top = SURFACE["rms_height"] ** 2 / (2 * np.pi)
+    q0, q1, h = surface["q0"], surface["q1"], surface["hurst"]
+    top = surface["rms_height"] ** 2 / (2 * np.pi)
     top /= q0**2 * (1 - (q1 / q0) ** (-2 * h)) / (2 * h)
     q, c = np.array([q0, q1]), top * np.array([1.0, (q1 / q0) ** (-2 * h - 2)])
     places = np.log(q)
@@ -211,7 +212,7 @@ def main():
     for rubber, conditions in CONDITIONS.items():
         for velocity, pressure in conditions:
             pair = [
-                [*solve(rubber, circle, velocity, pressure, [*shapes.values()], method)]
+                [*solve(RUBBERS[rubber], circle, velocity, pressure, [*shapes.values()], method)]
                 for circle, method in METHODS
             ]
             for (ratio, angle), one, two in zip(shapes, *pair, strict=True):

@@ -23,42 +23,24 @@ VectorXd one(double value) { return VectorXd::Constant(1, value); }
 
 }  // namespace
 
-std::vector<std::string> law_arguments(const SelfAffineSpectrum& law) {
-  std::vector<std::string> result{"rms_height", "hurst", "q0", "q1"};
-  if (law.rolloff) result.emplace_back("rolloff");
-  return result;
-}
-
 GradientChain::GradientChain(const GradientScene& scene, const ContactGrid& grid)
     : scene_(scene),
       grid_(grid),
       roughness_(grid),
-      rows_(scene.surface, std::holds_alternative<TabulatedSpectrum>(scene.spectrum), grid, scene.rows),
+      rows_(scene.surface, !scene.law, grid, scene.rows, scene.law ? nullptr : scene.waves.directions(),
+            scene.harmonics),
       known_(known_range(scene.rubber)) {
-  take_law();
+  if (const Directions* const directions = scene.waves.directions(); directions && scene.harmonics > 0)
+    rings_.emplace(*directions, grid, scene.harmonics);
+  if (scene.law && rings_)
+    take_directional_law();
+  else if (scene.law)
+    take_law();
   if (std::holds_alternative<NayakSFactor>(scene.model.correction)) take_nayak();
   const std::vector<std::string> numbers = correction_arguments(scene.model.correction);
   if (std::ranges::any_of(numbers, [](const std::string& name) { return name.ends_with("gamma"); }))
     gamma_.emplace(scene.model, scene.spectrum, scene.surface, grid);
   if (scene.model.strain_factors) strain_.emplace(*scene.model.strain_factors, scene.surface, grid);
-}
-
-/// ln C is the logarithm of a shape less that of int q C dq, which is kept: with q1 it loses what is added there.
-void GradientChain::take_law() {
-  const auto* const law = std::get_if<SelfAffineSpectrum>(&scene_.spectrum);
-  if (!law) return;
-  const VectorXd q = column(grid_.wavenumber(), grid_.band_size()),
-                 square = grid_.weight().cwiseQuotient(q.cwiseAbs2());
-  const double q_r = law->rolloff.value_or(law->q0), power = 2 * (1 + law->hurst);
-  const Eigen::ArrayXd falls = (q.array() > q_r).cast<double>();
-  const auto kept = [&](const Eigen::ArrayXd& of_shape) {
-    return VectorXd(of_shape - square.dot(of_shape.matrix()) / square.sum());
-  };
-  const auto every = [&](double value) { return VectorXd(VectorXd::Constant(q.size(), value)); };
-  const double at_q1 = law->q1 * law->q1 * density(*law, law->q1) / (law->rms_height * law->rms_height);
-  law_ = {every(2), kept(-2 * law->hurst * falls * (q / q_r).array().log()), every(0),
-          every(-2 * std::numbers::pi * at_q1)};
-  if (law->rolloff) law_.push_back(kept(power * falls));
 }
 
 /// alpha = 1.5 m0 m4 / m2^2 of m_n = int q^(n + 1) C dq.
@@ -93,6 +75,16 @@ VectorXd GradientChain::by_roughness(const MuSlopes& mu, double by_end, const Sh
 /// d mu over ln q of the upper end of the band as it moves outwards, C going on: what a node there has, over its d ln
 /// q.
 double GradientChain::at_end(const VectorXd& by_node) const {
+  if (const RoughnessPieces* const pieces = grid_.pieces()) {  // of the last one, a straight line through its nodes
+    const auto last = static_cast<Index>(2 * pieces->nodes().end.size()) - 1;
+    const std::vector<double>& q = grid_.wavenumber();
+    const auto per_weight = [&](Index j) { return by_node[j] / grid_.weight()[j]; };
+    const auto at = [&](Index j) { return std::log(q[static_cast<std::size_t>(j)]); };
+    const double end = scene_.surface.back().b, rise = (std::log(end) - at(last)) / (at(last) - at(last - 1));
+    const double square = end * end, softening = 1 - scene_.model.poisson_ratio * scene_.model.poisson_ratio;
+    const double rate = square * square * scene_.surface.back().at_b / (8 * softening * softening);
+    return rate * (per_weight(last) + rise * (per_weight(last) - per_weight(last - 1)));
+  }
   const ContactGrid::Cell& cell = grid_.cells().back();
   const LegendreRule& rule = *cell.rule;
   const double half = (cell.upper - cell.lower) / 2;
@@ -113,6 +105,9 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   PointGradient result;
   VectorXd by_f = VectorXd::Zero(static_cast<Index>(strain_ ? n : 0)), by_g = by_f;
   double by_end = mu.end, homogeneous = 0, beside = 0;
+  if (rings_) by_rings_.setZero(static_cast<Index>(n), rings_->columns());
+  integrals.rows = rings_ ? static_cast<std::size_t>(rings_->columns()) : 1;
+  constexpr double alone = 1;
   const auto add = [&](const FeltModulus& felt, const VectorXd& of_i1, const VectorXd& of_i2, bool moves) {
     for (std::size_t j = 0; j < n; ++j) {
       const auto at = static_cast<Index>(j);
@@ -129,18 +124,16 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
         if (moves && j >= band && j < edges_end) by_end += part * felt.along[at];
       }
       homogeneous += by_i1 + 2 * by_i2;
-      double storage = by_i2 / i2, loss = storage;
+      const auto [f, g] = strain_ ? strain_->factors()[j] : ModulusFactors{};
+      const double linear = by_i1 == 0 ? 0 : by_i1 * g / i1, storage = f * f * by_i2 / i2, loss = g * g * by_i2 / i2;
       if (strain_) {
-        const auto [f, g] = strain_->factors()[j];
         const double of_loss = g * g * felt.loss_part[j] / i2;
-        storage *= f * f;
-        loss *= g * g;
         by_f[at] += by_i2 * 2 * (1 - of_loss);
         by_g[at] += by_i2 * 2 * of_loss + by_i1;
-        integrals.add(felt.frequency[j], by_i1 == 0 ? 0 : by_i1 * g / i1, storage, loss);
-      } else {
-        integrals.add(felt.frequency[j], by_i1 == 0 ? 0 : by_i1 / i1, storage, loss);
       }
+      if (rings_) rings_->add(felt, j, linear, storage, loss, by_rings_);
+      integrals.add(felt.frequency[j], linear, storage, loss, rings_ ? rings_->of_i1(j) : &alone,
+                    rings_ ? rings_->of_i2(j) : &alone);
     }
   };
   add(mu.felt, mu.of.ratio, mu.of.i2 - mu.of.ratio, true);
@@ -150,10 +143,12 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   VectorXd by_strain = VectorXd::Zero(static_cast<Index>(band));
   if (strain_) strain = (*strain_)(by_f, by_g, by_strain);
   VectorXd by_node = by_roughness(mu, by_end + strain.end, shift);
+  if (rings_) rings_->spread(mu.of.edges, by_rings_, by_node);
   const double at_q1 = law_.empty() ? 0 : at_end(by_node) + strain.beyond * at_end(grid_.weight());
   by_node.head(by_strain.size()) += by_strain;
-  result.spectrum = rows_(by_node);
+  result.spectrum = rows_(by_node, by_rings_);
   add_law(mu, shift, by_node, at_q1, result);
+  if (rings_) result.arguments.push_back(one(rings_->turned(by_rings_)));
   scene_.modulus(integrals, result.storage, result.loss);
   // I1 is linear in E and I2 a square
   result.missed = std::fmax(std::fabs(result.storage.sum() + result.loss.sum() - homogeneous), std::fabs(beside));
@@ -170,22 +165,6 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
     result.arguments.push_back(one((*gamma_)({mu.felt.columns.i1, mu.felt.columns.i2}, mu.of, mu.by_area, mu.g)));
   for (const double slope : shift.correction) result.arguments.push_back(one(-2 * mu.of.scale * slope));
   return result;
-}
-
-/// The slope over q0 follows from all others, as mu does not change with the unit of length. Both theory and p_T keep
-/// that, the latter with lengths of its own.
-void GradientChain::add_law(const MuSlopes& mu, const ShiftGradient& shift, const VectorXd& by_node, double at_q1,
-                            PointGradient& result) const {
-  if (law_.empty()) return;
-  const double by_shift = -2 * mu.of.scale;  // over ln p_T
-  std::vector<double> slopes;
-  for (const VectorXd& of_nodes : law_) slopes.push_back(by_node.head(of_nodes.size()).dot(of_nodes));
-  slopes[3] += at_q1;
-  slopes[2] = slopes[0] - by_shift * shift.rms_height - slopes[3] + result.by_frequency + mu.by_lengths;
-  if (slopes.size() > 4) slopes[2] -= slopes[4];
-  if (shift.along != 0) slopes[2] -= shift.along * by_frequency_of(mu, shift);
-  slopes[slopes.size() > 4 ? 4 : 2] += by_shift * shift.wavenumber;
-  for (const double slope : slopes) result.arguments.push_back(one(slope));
 }
 
 /// Over the frequency at which p_T knows |E|.

@@ -13,19 +13,24 @@
 #include "contact/theory/strain_gradient.hpp"
 #include "contact/theory/theory.hpp"
 #include "friction/correction_gradient.hpp"
+#include "friction/ring_gradient.hpp"
 #include "heat/angular_slopes.hpp"
 #include "rubber/modulus_gradient.hpp"
 #include "rubber/series_gradient.hpp"
 
 namespace asperity {
 
-/// All that points of a call share. The rubber is the one at the reference temperature.
+/// All that points of a call share. The rubber is the one at the reference temperature, the spectrum has the rows of a
+/// law that knows directions, and `harmonics` of its rings matter.
 struct GradientScene {
   const Spectrum& spectrum;
+  const SelfAffineSpectrum* law;
   const Rubber& rubber;
   const ContactModel& model;
   const std::optional<Adhesion>& adhesion;
   std::span<const Segment> surface;
+  const Excitation& waves;
+  std::size_t harmonics;
   const std::vector<double>& rows;  // of C [1/m]
   const ModulusGradient& modulus;
   const std::optional<SeriesSlopes>& terms;  // of a series
@@ -77,6 +82,7 @@ class GradientChain {
   void take_law();
   void take_nayak();
   [[nodiscard]] Eigen::VectorXd by_roughness(const MuSlopes& mu, double by_end, const ShiftGradient& shift);
+  void take_directional_law();
   [[nodiscard]] double at_end(const Eigen::VectorXd& by_node) const;
   [[nodiscard]] double by_frequency_of(const MuSlopes& mu, const ShiftGradient& shift) const;
   void add_modulus(const MuSlopes& mu, const IntegralSlopes& integrals, const ShiftGradient& shift,
@@ -90,9 +96,12 @@ class GradientChain {
   RoughnessRows rows_;
   std::optional<StrainGradient> strain_;
   std::optional<FrequencyRange> known_;
-  std::vector<Eigen::VectorXd> law_;  // d ln C of the nodes over each number of a law
-  Eigen::VectorXd nayak_;             // the same of ln alpha over ln C of the nodes
-  std::vector<SInside> inside_;       // at an alpha that is less, and more
+  std::optional<RingGradient> rings_;
+  std::vector<Eigen::VectorXd> law_;        // d ln C of the nodes over each number of a law
+  std::vector<Eigen::MatrixXd> law_rings_;  // and, with directions, of their harmonics
+  Eigen::MatrixXd by_rings_;
+  Eigen::VectorXd nayak_;        // the same of ln alpha over ln C of the nodes
+  std::vector<SInside> inside_;  // at an alpha that is less, and more
   std::optional<GammaGradient> gamma_;
 };
 

@@ -25,11 +25,12 @@ ContactGridOptions grid_options(const GradientScene& scene, std::size_t number, 
   result.tabulated = std::holds_alternative<MasterCurve>(scene.rubber);
   if (result.tabulated) result.halvings = number;
   if (has_own_rule(scene.model.correction)) result.window = &window;
-  const Excitation waves(scene.rubber, scene.model, scene.surface);
+  const Excitation& waves = scene.waves;
   const auto* const table = std::get_if<TabulatedSpectrum>(&scene.spectrum);
   constexpr std::size_t few = 8;
   if (table && table->wavenumber().size() >= few) {
-    if (!waves.kinks().empty()) cut = std::make_unique<RoughnessPieces>(scene.surface, number, waves.kinks());
+    if (!waves.kinks().empty())
+      cut = std::make_unique<RoughnessPieces>(scene.surface, number, waves.kinks(), harmonics_of(scene.spectrum));
     result.pieces = cut ? cut.get() : &roughness_pieces(*table, number);
     return result;
   }
@@ -95,10 +96,11 @@ GradientLevel::GradientLevel(const GradientScene& scene, std::size_t number)
     : scene_(scene),
       window_(scene.surface),
       grid_(scene.surface, grid_options(scene, number, window_, cut_)),
-      theory_(contact_theory(scene.model, scene.spectrum, scene.surface, grid_, nullptr)),
+      theory_(contact_theory(scene.model, scene.spectrum, scene.surface, grid_, scene.waves.directions())),
       chain_(scene, grid_),
-      angular_(scene.rubber, chain_.factors()),
+      angular_(scene.rubber, chain_.factors(), scene.waves.rings(grid_)),
       known_(known_range(scene.rubber)) {
+  angular_.take_harmonics(scene.harmonics);
   if (std::holds_alternative<MasterCurve>(scene.rubber)) panels_.emplace(grid_);
 }
 

@@ -31,6 +31,9 @@ constexpr double rows_per_unit = 2;  // of ln q, of a law
 /// less than 1e-4 of mu (tests/stability/random_gradients.py).
 constexpr double of_change = 2, least_error = 2e-4;
 
+constexpr double of_harmonics = 1e-5;  // what those may have that are left out
+
+/// A spectrum as it is asked for: a law, or the rows of a table.
 std::vector<double> rows_of(const Spectrum& spectrum) {
   if (const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum)) return table->wavenumber();
   const auto& law = std::get<SelfAffineSpectrum>(spectrum);
@@ -84,25 +87,33 @@ void check(const Spectrum& spectrum, const ContactModel& model, const std::optio
   if (adhesion) validate(*adhesion);
   if (threads == 0) throw InvalidInput(argument("threads") + " = " + word("0") + must_be() + "1 or more");
   check_gauss(model.method, "with gradients, which GSL's methods do not give");
-  refuse_directions(spectrum, "gradient");
 }
 
 /// The results of all points.
 class Table {
  public:
-  Table(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
-        const std::optional<Adhesion>& adhesion, double slowest, double fastest)
-      : surface_(spectrum),
-        rows_(rows_of(spectrum)),
-        lowest_(slowest * band(spectrum)[0]),
-        highest_(fastest * band(spectrum)[1] * (has_own_rule(model.correction) ? partial_contact::tail_end : 1)),
-        modulus_(rubber, lowest_, highest_),
-        scene_{spectrum, rubber, model, adhesion, surface_.get(), rows_, modulus_, terms_},
+  Table(const Spectrum& given, const Rubber& rubber, const ContactModel& model, const std::optional<Adhesion>& adhesion,
+        double slowest, double fastest)
+      : solved_(given, model),
+        surface_(solved_.get()),
+        rows_(rows_of(given)),
+        lowest_(slowest * band(given)[0]),
+        highest_(fastest * band(given)[1] * (has_own_rule(model.correction) ? partial_contact::tail_end : 1)),
+        waves_(rubber, model, surface_.get(), harmonics_of(solved_.get())),
+        harmonics_(harmonics()),
+        modulus_(rubber, lowest_, highest_, harmonics_),
+        scene_{solved_.get(), std::get_if<SelfAffineSpectrum>(&given),
+               rubber,        model,
+               adhesion,      surface_.get(),
+               waves_,        harmonics_,
+               rows_,         modulus_,
+               terms_},
         of_rows_(weights_of(rows_)),
         of_modulus_(weights_of(modulus_.angular_frequency())) {
-    if (const auto* const law = std::get_if<SelfAffineSpectrum>(&spectrum)) add(law_arguments(*law));
+    if (scene_.law) add(law_arguments(*scene_.law));
+    if (harmonics_ > 0) add({"direction"});
     if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
-      terms_.emplace(*series, lowest_, highest_);
+      terms_.emplace(*series, lowest_, highest_, harmonics_);
       add({"equilibrium_modulus"});
       add({"moduli", "relaxation_times"}, series->moduli().size());
     }
@@ -147,9 +158,19 @@ class Table {
   [[nodiscard]] Gradients take() { return std::move(g_); }
 
  private:
+  [[nodiscard]] std::size_t harmonics() const {
+    if (!waves_.directions()) return 0;
+    const std::optional<FrequencyRange> known = known_range(waves_.rubber());
+    const auto held = [&](double w) { return known ? std::clamp(w, known->lowest, known->highest) : w; };
+    return std::max<std::size_t>(waves_.needed({held(lowest_), held(highest_)}, of_harmonics).count, 1);
+  }
+
+  AsSolved solved_;
   SurfaceSegments surface_;
   std::vector<double> rows_;
   double lowest_, highest_;  // [rad/s]
+  Excitation waves_;
+  std::size_t harmonics_;
   ModulusGradient modulus_;
   std::optional<SeriesSlopes> terms_;
   GradientScene scene_;
@@ -205,19 +226,46 @@ void visit_slopes(Gradients& g, Visit visit) {
   for (Gradients::OfArgument& one : g.arguments) visit(one.values);
 }
 
-/// The contacts of a scan have the slopes of PartialContact's mu_H and A times their ratios, but for those over p, v
-/// and T, which are differences of what was interpolated. `friction_at` is `friction` with the logarithms of p and v
-/// and T moved, `without` the slopes of mu_H alone.
+/// By which p and v move in the logarithm, and T [K], to tell the slopes of a scan.
+struct Steps {
+  double pressure, velocity, temperature;
+};
+constexpr Steps between_contacts{0.1, 1e-3, 0.01}, of_contacts{0.1, 0.1, 1};
+
+/// Slopes over p, v and T of what was interpolated, or with heat of contacts that are solved there: `friction_at` is
+/// `friction` with them moved.
 template <class FrictionAt>
-void take_scan(const Friction& rule, Gradients& without, Gradients& g, FrictionAt friction_at) {
-  const Friction scan = friction_at(0, 0, 0);
-  const std::size_t points = scan.mu.size();
+void take_differences(Gradients& g, FrictionAt friction_at, const Steps& steps) {
+  const auto slope = [&](double step, const Friction& less, const Friction& more, std::vector<double>& row) {
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = (more.mu[i] - less.mu[i]) / (2 * step);
+  };
+  const auto& [p, v, t] = steps;
+  slope(p, friction_at(-p, 0, 0), friction_at(p, 0, 0), g.pressure);
+  slope(v, friction_at(0, -v, 0), friction_at(0, v, 0), g.velocity);
+  if (!g.temperature.empty()) slope(t, friction_at(0, 0, -t), friction_at(0, 0, t), g.temperature);
+}
+
+/// Of points of one temperature each. The contacts of a scan have the slopes of PartialContact's mu_H and A times their
+/// ratios, but for those over p, v and T. `friction_of` is `friction` of a surface and a model with these moved.
+template <class PointOf, class FrictionOf>
+Gradients solve_or_scan(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
+                        const std::optional<Adhesion>& adhesion, std::size_t points, PointOf point_of,
+                        FrictionOf friction_of, unsigned threads) {
+  const ScanFriction engine(spectrum, rubber, model);
+  const auto of = [&](const std::optional<Adhesion>& with) {
+    return solve(engine.spectrum(), rubber, engine.model(), with, points, point_of, threads);
+  };
+  Gradients g = of(adhesion);
+  if (!engine.of_scan()) return g;
+  Gradients without = of(std::nullopt);
+  const Friction rule = friction_of(engine.spectrum(), engine.model(), 0, 0, 0),
+                 scan = friction_of(spectrum, model, 0, 0, 0);
   std::vector<std::vector<double>*> of_hysteresis;
   visit_slopes(without, [&](std::vector<double>& row) { of_hysteresis.push_back(&row); });
   std::size_t index = 0;
   visit_slopes(g, [&](std::vector<double>& row) {
     const bool of_both = index < of_hysteresis.size();  // the numbers of the adhesion stand last
-    const std::size_t n = points == 0 ? 0 : row.size() / points;
+    const std::size_t n = row.size() / points;
     for (std::size_t i = 0; i < points; ++i) {
       const double by_mu = rule.hysteresis[i] > 0 ? scan.hysteresis[i] / rule.hysteresis[i] : 1,
                    by_area = scan.contact_area[i] / rule.contact_area[i];
@@ -228,14 +276,15 @@ void take_scan(const Friction& rule, Gradients& without, Gradients& g, FrictionA
     }
     ++index;
   });
-  const auto slope = [&](double step, const Friction& less, const Friction& more, std::vector<double>& row) {
-    for (std::size_t i = 0; i < points; ++i) row[i] = (more.mu[i] - less.mu[i]) / (2 * step);
-  };
-  constexpr double in_pressure = 0.1, in_velocity = 1e-3, in_temperature = 0.01;
-  slope(in_pressure, friction_at(-in_pressure, 0, 0), friction_at(in_pressure, 0, 0), g.pressure);
-  slope(in_velocity, friction_at(0, -in_velocity, 0), friction_at(0, in_velocity, 0), g.velocity);
-  if (!g.temperature.empty())
-    slope(in_temperature, friction_at(0, 0, -in_temperature), friction_at(0, 0, in_temperature), g.temperature);
+  take_differences(
+      g, [&](double p, double v, double t) { return friction_of(spectrum, model, p, v, t); }, between_contacts);
+  return g;
+}
+
+std::vector<double> plus(std::span<const double> values, double more) {
+  std::vector<double> result(values.begin(), values.end());
+  for (double& one : result) one += more;
+  return result;
 }
 
 }  // namespace
@@ -245,20 +294,16 @@ Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const Contac
                     std::span<const double> velocity, unsigned threads) {
   check(spectrum, model, adhesion, pressure, velocity, threads);
   check_frequencies(spectrum, rubber, velocity);
-  const ScanFriction scan(spectrum, rubber, model);
-  const auto of = [&](const std::optional<Adhesion>& with) {
-    const auto point = [&](std::size_t i) { return GradientPoint{pressure[i], velocity[i]}; };
-    return solve(scan.spectrum(), rubber, scan.model(), with, pressure.size(), point, threads);
-  };
-  Gradients g = of(adhesion);
-  if (!scan.of_scan()) return g;
-  Gradients without = of(std::nullopt);
-  const auto friction_at = [&](double log_p, double log_v, double) {
-    return friction(spectrum, rubber, model, adhesion, times(pressure, log_p), times(velocity, log_v), false, threads);
-  };
-  take_scan(friction(scan.spectrum(), rubber, scan.model(), adhesion, pressure, velocity, false, threads), without, g,
-            friction_at);
-  return g;
+  return solve_or_scan(
+      spectrum, rubber, model, adhesion, pressure.size(),
+      [&](std::size_t i) {
+        return GradientPoint{pressure[i], velocity[i]};
+      },
+      [&](const Spectrum& road, const ContactModel& contact, double log_p, double log_v, double) {
+        return friction(road, rubber, contact, adhesion, times(pressure, log_p), times(velocity, log_v), false,
+                        threads);
+      },
+      threads);
 }
 
 Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
@@ -272,26 +317,16 @@ Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const Temper
   const auto a_T = [&](std::size_t i) { return std::pow(10, at[i].log10_a_T); };
   for (std::size_t i = 0; i < velocity.size(); ++i)
     at_temperature(temperature[i], [&] { check_frequencies(spectrum, rubber, std::array{velocity[i] * a_T(i)}); });
-  const ScanFriction scan(spectrum, rubber, model);
-  const auto of = [&](const std::optional<Adhesion>& with) {
-    const auto point = [&](std::size_t i) {
-      return GradientPoint{pressure[i], velocity[i], a_T(i), at[i].slope * std::numbers::ln10};
-    };
-    return solve(scan.spectrum(), rubber, scan.model(), with, pressure.size(), point, threads);
-  };
-  Gradients g = of(adhesion);
-  if (!scan.of_scan()) return g;
-  Gradients without = of(std::nullopt);
-  const auto friction_at = [&](double log_p, double log_v, double more) {
-    std::vector<double> moved(temperature.begin(), temperature.end());
-    for (double& one : moved) one += more;
-    return friction(spectrum, rubber, shift, model, adhesion, times(pressure, log_p), times(velocity, log_v), moved,
-                    false, threads);
-  };
-  take_scan(
-      friction(scan.spectrum(), rubber, shift, scan.model(), adhesion, pressure, velocity, temperature, false, threads),
-      without, g, friction_at);
-  return g;
+  return solve_or_scan(
+      spectrum, rubber, model, adhesion, pressure.size(),
+      [&](std::size_t i) {
+        return GradientPoint{pressure[i], velocity[i], a_T(i), at[i].slope * std::numbers::ln10};
+      },
+      [&](const Spectrum& road, const ContactModel& contact, double log_p, double log_v, double more) {
+        return friction(road, rubber, shift, contact, adhesion, times(pressure, log_p), times(velocity, log_v),
+                        plus(temperature, more), false, threads);
+      },
+      threads);
 }
 
 Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
@@ -301,10 +336,28 @@ Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const Temper
   check(spectrum, model, adhesion, pressure, velocity, threads);
   require_same_size("temperature", temperature.size(), "velocity", velocity.size());
   check_heating(heating, shift, adhesion);
-  if (std::holds_alternative<ScanContact>(model.correction))
-    throw InvalidInput(argument("correction") + " = " + word("ScanContact") + must_be() +
-                       "another where gradients are asked for with " + argument("heating") +
-                       ": T(q) is the theory's, and the ratios to it have no slopes over its heat");
+  const ScanFriction scan(spectrum, rubber, model);
+  const auto friction_of = [&](const Spectrum& road, const ContactModel& contact, double log_p, double log_v,
+                               double more) {
+    return friction(road, rubber, shift, heating, contact, adhesion, times(pressure, log_p), times(velocity, log_v),
+                    plus(temperature, more), branch, false, threads)
+        .hot;
+  };
+  if (scan.of_scan()) {  // mu of its rule has the slopes, times the ratio of both; T(q) is that of the rule
+    Gradients g = gradients(scan.spectrum(), rubber, shift, heating, scan.model(), adhesion, pressure, velocity,
+                            temperature, branch, threads);
+    const auto scan_at = [&](double log_p, double log_v, double more) {
+      return friction_of(spectrum, model, log_p, log_v, more);
+    };
+    const Friction of_scan = scan_at(0, 0, 0), rule = friction_of(scan.spectrum(), scan.model(), 0, 0, 0);
+    visit_slopes(g, [&](std::vector<double>& row) {
+      const std::size_t n = row.size() / rule.mu.size();
+      for (std::size_t k = 0; k < row.size(); ++k)
+        row[k] *= rule.mu[k / n] > 0 ? of_scan.mu[k / n] / rule.mu[k / n] : 1;
+    });
+    take_differences(g, scan_at, of_contacts);
+    return g;
+  }
   // the modulus is asked for at temperatures up to the hottest
   ContactModel roughly = model;
   roughly.rtol = std::fmax(model.rtol, 1e-3);
@@ -319,8 +372,8 @@ Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const Temper
   Table table(spectrum, rubber, model, adhesion, slowest, fastest);
   table.add(heating_arguments(heating, adhesion.has_value()));
   table.begin(velocity.size(), true);
-  const HeatScene heat{
-      spectrum, table.scene().surface, rubber, shift, heating, model, macro_wavenumber(heating, spectrum)};
+  const Spectrum& solved = table.scene().spectrum;
+  const HeatScene heat{solved, table.scene().surface, rubber, shift, heating, model, macro_wavenumber(heating, solved)};
   const std::vector<std::size_t> order = by_curve(pressure, velocity, temperature);
   constexpr std::size_t block = 64;
   const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(order.size() / block, 1, threads));

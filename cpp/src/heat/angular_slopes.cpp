@@ -24,7 +24,7 @@ void AngularSlopes::operator()(FeltModulus& felt) {
   const bool measured = std::holds_alternative<MasterCurve>(rubber_);
   if (measured) solve(felt.frequency, true, felt.columns, apart);
   solve(felt.frequency, true, measured ? felt.beside : felt.columns);
-  felt.loss_part.assign(of_loss_.begin(), of_loss_.begin() + std::ssize(factors_));
+  take_rows(felt);
 }
 
 void AngularSlopes::operator()(FeltModulus& felt, const PanelSlopes* panels, double velocity) {
@@ -32,7 +32,17 @@ void AngularSlopes::operator()(FeltModulus& felt, const PanelSlopes* panels, dou
   velocity_ = velocity;
   solve(felt.frequency, true, felt.columns);
   panels_ = nullptr;
-  felt.loss_part.assign(of_loss_.begin(), of_loss_.begin() + std::ssize(factors_));
+  take_rows(felt);
+}
+
+void AngularSlopes::take_rows(FeltModulus& felt) const {
+  const auto n = std::ssize(felt.frequency), parted = factors_.empty() ? 0 : n;
+  felt.loss_part.assign(of_loss_.begin(), of_loss_.begin() + parted);
+  if (harmonics_ == 0) return;
+  felt.loss_rows = whole_;
+  felt.loss_rows.insert(felt.loss_rows.end(), loss_.begin(), loss_.end());
+  felt.square_rows = square_;
+  felt.loss_part_rows.assign(of_loss_.begin() + parted, of_loss_.end());
 }
 
 void AngularSlopes::solve(std::span<const double> w, bool sloped, AngularColumns& result, double step) {
@@ -58,6 +68,7 @@ void AngularSlopes::solve(std::span<const double> w, bool sloped, AngularColumns
 void AngularSlopes::add_rings(std::span<const double> w, bool sloped, AngularColumns& result) {
   const std::size_t n = w.size(), rows = harmonics_;
   for (auto* const row : {&loss_, &square_, &slopes_}) row->resize(rows * n);
+  whole_.assign(result.i1.begin(), result.i1.begin() + static_cast<std::ptrdiff_t>(n));
   const std::span<const double> at(held_.data(), n);
   for (auto* const row : {&i1_[0], &i2_[0]}) row->resize(n);
   (void)angular_integrals(rubber_, at, i1_[0], i2_[0], {}, loss_, square_);

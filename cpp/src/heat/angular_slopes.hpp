@@ -18,12 +18,14 @@ struct AngularColumns {
 
 /// What nodes of a grid feel of a rubber: at reduced frequencies v q a_T, with the part of I2 that the loss modulus has
 /// before factors of strain, empty without these; d ln a_T / dT [1/K], and d ln w / d ln q of waves that go along with
-/// q.
+/// q. With directions the isotropic I1 and L_m, K_m and the parts that the loss modulus has of K_m, m from 1 on, in
+/// rows one after the other.
 struct FeltModulus {
   std::vector<double> frequency;
   AngularColumns columns;
   std::vector<double> loss_part;
   Eigen::VectorXd rate, along;
+  std::vector<double> loss_rows = {}, square_rows = {}, loss_part_rows = {};
   AngularColumns beside = {};  // where slopes are means, the same with those over a hundredth of their step
 };
 
@@ -53,6 +55,7 @@ class AngularSlopes {
   void of_curve(const MasterCurve& curve, std::span<const double> w, bool sloped, double step, AngularColumns& result);
   void on_panels(const MasterCurve& curve, AngularColumns& result);
   void add_rings(std::span<const double> w, bool sloped, AngularColumns& result);
+  void take_rows(FeltModulus& felt) const;
 
   Rubber rubber_;  // of a series that was fitted the one without that range
   std::vector<ModulusFactors> factors_;
@@ -61,7 +64,7 @@ class AngularSlopes {
   const PanelSlopes* panels_ = nullptr;
   double velocity_ = 0;
   std::vector<double> around_[2], i1_[2], i2_[2], held_, of_loss_, loss_slope_;
-  std::vector<double> loss_, square_, slopes_;  // rows of harmonics
+  std::vector<double> whole_, loss_, square_, slopes_;  // the isotropic I1, and rows of harmonics
 };
 
 }  // namespace asperity

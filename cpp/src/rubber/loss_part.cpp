@@ -101,6 +101,23 @@ void loss_part(const PronySeries& series, std::span<const double> w, std::span<d
   }
 }
 
+namespace {
+
+/// The sum of K_m'' times `by`, from m = 1 on, of a pair of E_k E_l = 1.
+double of_pair(double x, double x_other, std::span<const double> by) {
+  const double r = std::sqrt(1 + x * x), s = std::sqrt(1 + x_other * x_other);
+  const double y = x / (r + 1), z = x_other / (s + 1), u = -y * y, v = -z * z;
+  double power = 1, between = 0, sum = 0;
+  for (const double one : by) {
+    between = u * between + power;
+    power *= v;
+    sum += one * (2 * between * (s / (r + 1)) / (s + 1) + power);
+  }
+  return x / r * (x_other / s) / (r + s) * sum;
+}
+
+}  // namespace
+
 void loss_part_gradient(const PronySeries& series, std::span<const double> w, std::span<const double> by_part,
                         std::span<double> moduli, std::span<double> relaxation_times) {
   const std::vector<double>& tau = series.relaxation_times();
@@ -119,19 +136,35 @@ void loss_part_gradient(const PronySeries& series, std::span<const double> w, st
   std::vector<double> x(terms), r(terms);
   visit_pairs(
       series, [&](const Pair& pair) { pairs.push_back(pair); }, [](const FarPair&) {});
+  const std::size_t rows = w.empty() ? 0 : by_part.size() / w.size();
   for (std::size_t i = 0; i < w.size(); ++i) {
-    if (by_part[i] == 0) continue;
+    const std::span<const double> by = by_part.subspan(i * rows, rows), by_harmonics = by.subspan(1);
+    if (std::ranges::all_of(by, [](double one) { return one == 0; })) continue;
     for (std::size_t k = 0; k < terms; ++k) {
       x[k] = std::fmin(w[i] * tau[k], most);
       r[k] = std::sqrt(1 + x[k] * x[k]);
-      const double y = x[k] / r[k];
-      s[k] += by_part[i] * y * (x[k] / (r[k] + 1));
-      rise[k] += by_part[i] * y * y / r[k];
+      const double y = x[k] / r[k], root = x[k] / (r[k] + 1);
+      s[k] += by[0] * y * root;
+      rise[k] += by[0] * y * y / r[k];
+      double power = 1 / r[k];
+      for (std::size_t m = 0; m < by_harmonics.size(); ++m) {
+        power *= -root * root;
+        s[k] -= by_harmonics[m] * power;
+        rise[k] -= by_harmonics[m] * power * (2 * static_cast<double>(m + 1) / r[k] - y * y);
+      }
     }
     for (const auto& [k, l, of] : pairs) {
-      const double a = x[k] / r[k], b = x[l] / r[l], both = r[k] + r[l], value = by_part[i] * of * a * b / both;
+      const double a = x[k] / r[k], b = x[l] / r[l], both = r[k] + r[l], value = by[0] * of * a * b / both;
       add(k, value, value * (1 - a * a - x[k] * a / both));
       add(l, value, value * (1 - b * b - x[l] * b / both));
+      if (by_harmonics.empty()) continue;
+      constexpr double step = 1e-4;
+      const auto at = [&, k = k, l = l](double first, double second) {
+        return of_pair(x[k] * std::exp(first), x[l] * std::exp(second), by_harmonics);
+      };
+      const double of_both = of * at(0, 0);
+      add(k, of_both, of * (at(step, 0) - at(-step, 0)) / (2 * step));
+      add(l, of_both, of * (at(0, step) - at(0, -step)) / (2 * step));
     }
   }
   visit_pairs(

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "numerics/gauss_legendre.hpp"
 #include "numerics/interpolation.hpp"
@@ -55,7 +56,8 @@ std::vector<double> breaks_between(double length, double before) {
 
 }  // namespace
 
-ModulusGradient::ModulusGradient(const Rubber& rubber, double lowest, double highest) : rubber_(rubber) {
+ModulusGradient::ModulusGradient(const Rubber& rubber, double lowest, double highest, std::size_t harmonics)
+    : rubber_(rubber), harmonics_(static_cast<Index>(harmonics) + 1) {
   if (const auto* const curve = std::get_if<MasterCurve>(&rubber))
     take_rows(*curve);
   else
@@ -154,20 +156,27 @@ ModulusGradient::Node ModulusGradient::node_at(const Rubber& rubber, double w, d
           e.imag() * e.imag() * (stretch.loss * powers)};
 }
 
-/// What a node has in the integrals at w, `kernel` its weight there.
-void ModulusGradient::add_node(const Node& node, double w, double kernel, Index column) {
+/// What a node has in the integrals at w, `kernel` its weight there. With cos(phi) = w' / w it has cos(2 k phi) times
+/// as much in K_k as in I2, and cos((2 k + 1) phi) / cos(phi) times as much in L_k as in I1.
+void ModulusGradient::add_node(const Node& node, double w, double kernel, Index place) {
   const auto rows = Eigen::seqN(node.first, node.count), of = Eigen::seqN(Index{0}, node.count);
-  const double linear = node.loss > 0 ? 4 * kernel * (node.w / w) / node.loss : 0;
-  i2_storage_(rows, column) += 8 * kernel * node.storage_square(of);
-  i2_loss_(rows, column) += 8 * kernel * node.loss_square(of);
-  i1_loss_(rows, column) += linear * node.loss_square(of);
+  const double u = node.w / w, twice = 2 * (2 * u * u - 1), linear = node.loss > 0 ? 4 * kernel * u / node.loss : 0;
+  double even = 1, even_before = twice / 2, odd = 1, odd_before = 1;
+  for (Index k = place * harmonics_; k < (place + 1) * harmonics_; ++k) {
+    i2_storage_(rows, k) += 8 * kernel * even * node.storage_square(of);
+    i2_loss_(rows, k) += 8 * kernel * even * node.loss_square(of);
+    i1_loss_(rows, k) += linear * odd * node.loss_square(of);
+    even_before = std::exchange(even, twice * even - even_before);
+    odd_before = std::exchange(odd, twice * odd - odd_before);
+  }
 }
 
 void ModulusGradient::take_integrals() {
   const std::optional<Rubber> unlimited = asperity::unlimited(rubber_);
   const Rubber& rubber = unlimited ? *unlimited : rubber_;
   const double lowest = breaks_.front();
-  const auto n = static_cast<Index>(rows_.size()), columns = static_cast<Index>(stretches_.size()) * places;
+  const auto n = static_cast<Index>(rows_.size()),
+             columns = static_cast<Index>(stretches_.size()) * places * harmonics_;
   for (auto* const matrix : {&i2_storage_, &i2_loss_, &i1_loss_}) matrix->setZero(n, columns);
   // nodes in ln w' that serve all w far above them; those of the tail in w'
   const LegendreRule &rule = legendre_rule(4), &fine = legendre_rule(8);
@@ -187,18 +196,18 @@ void ModulusGradient::take_integrals() {
     for (int p = 0; p < places; ++p) {
       const double s = lagrange.place()[static_cast<std::size_t>(p)];
       const double w = stretches_[i].low * std::pow(stretches_[i].high / stretches_[i].low, s * s);
-      const Index column = static_cast<Index>(i) * places + p;
+      const Index place = static_cast<Index>(i) * places + p;
       std::size_t near = 0;  // the first stretch that reaches beyond `far`
       while (stretches_[near].high <= far * w) ++near;
       for (std::size_t k = near == 0 && lowest > far * w ? fine.n : 0; k < first[near]; ++k) {
         const double u = nodes[k].w / w;
-        add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), column);
+        add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), place);
       }
       const auto add_near = [&](double low, double high) {
         const double from = std::acos(std::fmin(1, high / w)), half = (std::acos(low / w) - from) / 2;
         for (std::size_t j = 0; j < fine.n; ++j) {
           const double at = w * std::cos(from + half * (1 + fine.node[j]));
-          add_node(node_at(rubber, at, 0), w, half * fine.weight[j], column);
+          add_node(node_at(rubber, at, 0), w, half * fine.weight[j], place);
         }
       };
       if (near == 0 && lowest > far * w) add_near(0, lowest);
@@ -206,12 +215,15 @@ void ModulusGradient::take_integrals() {
     }
 }
 
-void IntegralSlopes::add(double at, double by_i1, double by_storage, double by_loss) {
+void IntegralSlopes::add(double at, double by_i1, double by_storage, double by_loss, const double* of_i1,
+                         const double* of_i2) {
   if (by_i1 == 0 && by_storage == 0 && by_loss == 0) return;
   w.push_back(at);
-  i1.push_back(by_i1);
-  storage.push_back(by_storage);
-  loss.push_back(by_loss);
+  for (std::size_t k = 0; k < rows; ++k) {
+    i1.push_back(by_i1 * of_i1[k]);
+    storage.push_back(by_storage * of_i2[k]);
+    loss.push_back(by_loss * of_i2[k]);
+  }
 }
 
 void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, VectorXd& loss) const {
@@ -221,14 +233,17 @@ void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, Ve
     const double at = std::clamp(of.w[j], breaks_.front(), stretches_.back().high);
     const std::size_t k = stretch_at(at);
     const std::array<double, 6> share = lagrange(std::sqrt(place(stretches_[k], at)));
-    const Index first = static_cast<Index>(k) * places;
-    for (int p = 0; p < places; ++p) {
-      i1[first + p] += of.i1[j] * share[static_cast<std::size_t>(p)];
-      of_storage[first + p] += of.storage[j] * share[static_cast<std::size_t>(p)];
-      of_loss[first + p] += of.loss[j] * share[static_cast<std::size_t>(p)];
-    }
+    const Index first = static_cast<Index>(k) * places * harmonics_;
+    for (int p = 0; p < places; ++p)
+      for (std::size_t h = 0; h < of.rows; ++h) {
+        const double part = share[static_cast<std::size_t>(p)];
+        const Index column = first + p * harmonics_ + static_cast<Index>(h);
+        i1[column] += of.i1[j * of.rows + h] * part;
+        of_storage[column] += of.storage[j * of.rows + h] * part;
+        of_loss[column] += of.loss[j * of.rows + h] * part;
+      }
     begin = std::min(begin, first);
-    end = std::max(end, first + places);
+    end = std::max(end, first + places * harmonics_);
   }
   const Index n = std::max<Index>(end - begin, 0);
   if (n == 0) begin = 0;

@@ -9,10 +9,13 @@
 
 namespace asperity {
 
-/// The slopes of a number over I1 and the parts of I2 that E' and E'' have, at frequencies `w`.
+/// The slopes of a number over I1 and the parts of I2 that E' and E'' have, at frequencies `w`; with harmonics over L_k
+/// and the parts of K_k, k from 0, I1 and I2 themselves, to their number, beside each other.
 struct IntegralSlopes {
+  std::size_t rows = 1;
   std::vector<double> w, i1, storage, loss;
-  void add(double at, double by_i1, double by_storage, double by_loss);
+  /// Each over as many `rows` of a wave, which has them times `of_i1` and `of_i2`.
+  void add(double at, double by_i1, double by_storage, double by_loss, const double* of_i1, const double* of_i2);
 };
 
 /// Rows of a modulus at rising angular frequencies: those of a master curve, or of a Prony series steps of ln w between
@@ -20,8 +23,8 @@ struct IntegralSlopes {
 /// three products of a matrix and a vector.
 class ModulusGradient {
  public:
-  /// For integrals at frequencies in [lowest, highest] [rad/s].
-  ModulusGradient(const Rubber& rubber, double lowest, double highest);
+  /// For integrals at frequencies in [lowest, highest] [rad/s], and so many harmonics beside them.
+  ModulusGradient(const Rubber& rubber, double lowest, double highest, std::size_t harmonics = 0);
 
   [[nodiscard]] const std::vector<double>& angular_frequency() const { return rows_; }
   /// The slopes of a number over ln E' and ln E'' of each row, from those over integrals at frequencies, which are held
@@ -51,13 +54,14 @@ class ModulusGradient {
   void take_rows(const MasterCurve& curve);
   void take_integrals();
   [[nodiscard]] Node node_at(const Rubber& rubber, double w, double weight) const;
-  void add_node(const Node& node, double w, double kernel, Eigen::Index column);
+  void add_node(const Node& node, double w, double kernel, Eigen::Index place);
   [[nodiscard]] std::size_t stretch_at(double w) const;
 
   const Rubber& rubber_;
   std::vector<double> rows_, breaks_;
   std::vector<Stretch> stretches_;
-  // d I2 / d ln E', d I2 / d ln E'' and d I1 / d ln E'': a row a row of the modulus, a column a place
+  Eigen::Index harmonics_;  // I1 and I2 among them
+  // d I2 / d ln E', d I2 / d ln E'' and d I1 / d ln E'': a row a row of the modulus, a column a harmonic of a place
   Eigen::MatrixXd i2_storage_, i2_loss_, i1_loss_;
 };
 

@@ -1,5 +1,6 @@
 // I1 = 2 pi sum_k E_k s_k / t_k and I2 = 2 pi (E_inf^2 + sum_k w_k s_k), w_k = 2 E_k (E_inf + sum_l E_l / (1 + tau_k /
-// tau_l)), t_k = w tau_k, s_k = 1 - 1 / sqrt(1 + t_k^2), of which ds / d ln t = t^2 / (1 + t^2)^(3/2).
+// tau_l)), t_k = w tau_k, r_k = sqrt(1 + t_k^2), s_k = 1 - 1 / r_k, of which ds / d ln t = t^2 / r^3. With u = -(r - 1)
+// / (r + 1), d ln u / d ln t = 2 / r, L_m has u^m s / t in the place of s / t, and K_m -u^m / r in that of s.
 #include "rubber/series_gradient.hpp"
 
 #include <algorithm>
@@ -25,41 +26,54 @@ const Lagrange<points> lagrange({0, 1, 2, 3, 4, 5, 6, 7});
 
 }  // namespace
 
-SeriesSlopes::SeriesSlopes(const PronySeries& series, double lowest, double highest)
-    : series_(series), first_((std::floor(std::log(lowest) / step) - points) * step) {
+SeriesSlopes::SeriesSlopes(const PronySeries& series, double lowest, double highest, std::size_t harmonics)
+    : series_(series),
+      harmonics_(static_cast<Index>(harmonics) + 1),
+      first_((std::floor(std::log(lowest) / step) - points) * step) {
   const auto n = static_cast<Index>(series.moduli().size());
   const auto count = static_cast<Index>(std::ceil(std::log(highest / lowest) / step)) + 2 * points;
-  for (auto* const matrix : {&share_over_t_, &share_, &slope_over_t_, &slope_}) matrix->resize(n, count);
+  for (auto* const matrix : {&share_over_t_, &share_, &slope_over_t_, &slope_}) matrix->resize(n, count * harmonics_);
   for (Index j = 0; j < count; ++j)
     for (Index k = 0; k < n; ++k) {
       const double t = std::fmin(
           std::exp(first_ + static_cast<double>(j) * step) * series.relaxation_times()[static_cast<std::size_t>(k)],
           1e140);  // whose square is a double
       const double root = std::sqrt(1 + t * t);
-      share_over_t_(k, j) = t / (root * (1 + root));
-      share_(k, j) = t * share_over_t_(k, j);
-      slope_over_t_(k, j) = t / root / root / root;
-      slope_(k, j) = t * slope_over_t_(k, j);
+      const double y = t / (1 + root);
+      double power = 1;  // u^m
+      for (Index m = 0; m < harmonics_; ++m, power *= -y * y) {
+        const Index column = j * harmonics_ + m;
+        const double rise = 2 * static_cast<double>(m) / root;  // d ln u^m / d ln t
+        share_over_t_(k, column) = power * y / root;
+        slope_over_t_(k, column) = share_over_t_(k, column) * ((1 + root) / root / root + rise);
+        share_(k, column) = m == 0 ? t * share_over_t_(k, column) : -power / root;
+        slope_(k, column) = m == 0 ? t * slope_over_t_(k, column) : share_(k, column) * (rise - t / root * (t / root));
+      }
     }
 }
 
 SeriesGradient SeriesSlopes::operator()(const IntegralSlopes& of) const {
-  const Index count = share_.cols(), n = share_.rows();
-  VectorXd by_i1 = VectorXd::Zero(count), by_i2 = by_i1;
-  Index begin = count, end = 0;
+  const Index count = share_.cols() / harmonics_, n = share_.rows();
+  VectorXd by_i1 = VectorXd::Zero(share_.cols()), by_i2 = by_i1;
+  Index begin = share_.cols(), end = 0;
+  double by_whole_i2 = 0;
   // of I2 as a whole, and of its part by E'' what it has beside that
-  std::vector<double> beside(of.w.size());
+  std::vector<double> beside(of.loss.size());
   for (std::size_t j = 0; j < of.w.size(); ++j) {
     const double x = std::clamp((std::log(of.w[j]) - first_) / step, 0.0, static_cast<double>(count - 1));
     const Index from = std::clamp<Index>(static_cast<Index>(x) - points / 2 + 1, 0, count - points);
     const std::array<double, points> share = lagrange(x - static_cast<double>(from));
-    const Eigen::Map<const Eigen::Matrix<double, points, 1>> shares(share.data());
-    by_i1.segment<points>(from) += of.i1[j] * shares;
-    by_i2.segment<points>(from) += of.storage[j] * shares;
-    beside[j] = of.loss[j] - of.storage[j];
-    begin = std::min(begin, from);
-    end = std::max(end, from + points);
+    for (std::size_t p = 0; p < points; ++p)
+      for (std::size_t h = 0; h < of.rows; ++h) {
+        const Index column = (from + static_cast<Index>(p)) * harmonics_ + static_cast<Index>(h);
+        by_i1[column] += of.i1[j * of.rows + h] * share[p];
+        by_i2[column] += of.storage[j * of.rows + h] * share[p];
+      }
+    by_whole_i2 += of.storage[j * of.rows];
+    begin = std::min(begin, from * harmonics_);
+    end = std::max(end, (from + points) * harmonics_);
   }
+  for (std::size_t i = 0; i < beside.size(); ++i) beside[i] = of.loss[i] - of.storage[i];
   if (end == 0) begin = 0;
   const auto over = [&](const Eigen::MatrixXd& known, const VectorXd& by) -> VectorXd {
     return 2 * pi * (known.middleCols(begin, end - begin) * by.segment(begin, end - begin));
@@ -70,7 +84,7 @@ SeriesGradient SeriesSlopes::operator()(const IntegralSlopes& of) const {
   // over E_k as it stands in I1 and over w_k
   const VectorXd linear = over(share_over_t_, by_i1), weight = over(share_, by_i2);
   SeriesGradient result;
-  result.equilibrium_modulus = 4 * pi * e_inf * e_inf * by_i2.sum() + 2 * e_inf * weight.dot(e);
+  result.equilibrium_modulus = 4 * pi * e_inf * e_inf * by_whole_i2 + 2 * e_inf * weight.dot(e);
   result.moduli = e.cwiseProduct(linear) + weight.cwiseProduct(weights);
   result.relaxation_times =
       e.cwiseProduct(over(slope_over_t_, by_i1) - linear) + weights.cwiseProduct(over(slope_, by_i2));

@@ -97,6 +97,18 @@ double mean_of_shape(const SelfAffineSpectrum& s) {
   return means(law, 1, 1)[0];
 }
 
+std::vector<double> mean_harmonics(const SelfAffineSpectrum& law, std::span<const double> wavenumber,
+                                   std::size_t count) {
+  const std::vector<double> of_power = law.rolloff ? std::vector<double>() : means(law, 1, count);
+  const double top = density_at_rolloff(law) / (law.rolloff ? 1 : of_power[0]), from = law.rolloff.value_or(law.q0);
+  std::vector<double> result;
+  for (const double q : wavenumber) {
+    const double x = q / from, factor = top * (law.rolloff ? 1 : std::pow(x, -2 - 2 * law.hurst));
+    for (const double one : law.rolloff ? means(law, x, count) : of_power) result.push_back(factor * one);
+  }
+  return result;
+}
+
 double plane_height(const SelfAffineSpectrum& s) {
   const double q_r = *s.rolloff, root = std::sqrt(s.axis_ratio);
   const double begin = std::clamp(q_r / root, s.q0, s.q1), end = std::clamp(q_r * root, s.q0, s.q1);

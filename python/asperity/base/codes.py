@@ -68,6 +68,7 @@ NOTES = {
     "coarse-map": (WARNING, "contacts of few pixels are uncertain"),
     "along-x": (NOTE, "x is slid along, as without a direction, on a surface with a lay"),
     "large-angle": (WARNING, "a direction of more than a turn: it is in radians"),
+    "held-ratio": (NOTE, "slopes hold the ratio of a scan's contact to PartialContact"),
     "regime-slow": (NOTE, "the model error where the loss rises with frequency"),
     "regime-constant": (NOTE, "the model error at about constant loss tangents"),
     "regime-fast": (NOTE, "the model error where the modulus outgrows the loss"),

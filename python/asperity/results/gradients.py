@@ -11,6 +11,7 @@ from asperity.base.value import value
 DENSITIES = ("spectrum", "storage", "loss")
 SEVERAL = {"moduli": "term", "relaxation_times": "term"}  # scalars of which there are several
 SEVERAL |= {"storage_factors": "row", "loss_factors": "row"}
+PER = {"temperature": "1/K", "lay": "1/rad", "direction": "1/rad"}  # not over a logarithm
 DECADE = np.log(10)
 
 
@@ -44,6 +45,9 @@ class Gradients(Table):
     rms_height, hurst, q0, q1, rolloff : float or ndarray, or None
         d mu / d ln of each, of a self-affine spectrum. q0 and q1 move the end of the band at a kept
         rms height.
+    axis_ratio, lay, direction : float or ndarray, or None
+        Of a spectrum that knows directions: d mu / d ln of the axis ratio of a law, and d mu over
+        its lay and over the direction of sliding [1/rad]. `spectrum` has rings at kept harmonics.
     strain_per_slope, storage_factors, loss_factors : float or ndarray, or None
         d mu / d ln of each, of strain factors; the last two are their rows `storage` and `loss`,
         shape mu.shape + (rows,).
@@ -81,6 +85,9 @@ class Gradients(Table):
     q0: Any = None
     q1: Any = None
     rolloff: Any = None
+    axis_ratio: Any = None
+    lay: Any = None
+    direction: Any = None
     strain_per_slope: Any = None
     storage_factors: Array | None = None
     loss_factors: Array | None = None
@@ -121,9 +128,8 @@ class Gradients(Table):
         for name, slope in self._arguments().items():
             if name in coordinates or slope is None:
                 continue
-            unit = "1/K" if name == "temperature" else "1"
             over = (*axes, along[name]) if name in along else axes
-            of = name if name == "temperature" else f"ln {name}"
+            unit, of = (PER[name], name) if name in PER else ("1", f"ln {name}")
             meaning = "error estimate" if name == "error_estimate" else f"d mu / d {of}"
             variables[name] = Column(over, slope, unit, meaning)
         return Columns(coordinates, variables)

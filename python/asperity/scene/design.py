@@ -18,11 +18,12 @@ from asperity.scene.model import Scene
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 
 MORE = np.log(1.1)  # 10 % more, in a logarithm
+DEGREES = 10.0  # of direction, for which 10 % have no meaning
 DMA_HERTZ = 10.0  # at which tan delta at 0 and 60 C are the trade's handles
 _COLDEST, _HOTTEST = 150.0, 700.0  # [K]
 # slopes that are no numbers of the scene's parts, or many
 _OTHERS = {*DENSITIES, *SEVERAL, "wavenumber", "angular_frequency", "poisson_ratio"}
-_OTHERS |= {"pressure", "velocity", "temperature", "error_estimate"}
+_OTHERS |= {"pressure", "velocity", "temperature", "direction", "lay", "error_estimate"}
 _NUMBERS = tuple(one.name for one in fields(Gradients) if one.name not in _OTHERS)
 
 
@@ -114,6 +115,9 @@ def _at_point(
         yield Worth(*point, part, "10 %", None, None, None, MORE * getattr(of, part)[i])
     if of.temperature is not None:
         yield Worth(*point, "temperature", "1 K", None, None, None, float(of.temperature[i]))
+    if of.direction is not None:
+        more = float(np.radians(DEGREES) * of.direction[i])
+        yield Worth(*point, "direction", f"{DEGREES:g} degrees", None, None, None, more)
     for name in _NUMBERS:
         if (slope := getattr(of, name)) is not None:
             yield Worth(*point, name, "10 %", None, None, None, MORE * float(slope[i]))

@@ -63,6 +63,9 @@ def linear_band(
         if name and (one := options[name]) is not None:
             text = f': {type(one).__name__} has no linear band, take method="draws"'
             raise InvalidInput(Argument(name), text)
+    if drawn_spectrum(spectrum).plain.is_directional:
+        text = ': knows directions, whose errors have no linear band, take method="draws"'
+        raise InvalidInput(Argument("spectrum"), text)
     names = ("poisson_ratio", "correction", "form", "shift")
     options = {name: options[name] for name in names} | {"rtol": 1e-4}
     of_build = isinstance(rubber, MasterCurveBuild) and options["shift"] is None

@@ -71,12 +71,17 @@ HEATING = ("density", "heat_capacity", "conductivity", "contact_diameter", "macr
 HEATING += ("residence",)
 
 
+TABLES = ("gradients", "gradients_strain", "gradients_direction", "gradients_hot")
+
+
 def scene_of(row):
     """Spectrum, rubber and conditions of a row."""
     law, series = row["rms_height"] is not None, row["equilibrium_modulus"] is not None
     spectrum = table_rows.self_affine(row) if law else table_rows.tabulated(row)
     rubber = table_rows.prony(row) if series else table_rows.master_curve(row)
     at = {name: row[name] for name in ("pressure", "velocity", "poisson_ratio")}
+    if "direction_deg" in row:
+        at["direction"] = np.radians(row["direction_deg"])
     if row.get("strain_per_slope") is not None:
         names = ("strain", "storage", "loss", "strain_per_slope")
         at["strain_factors"] = asperity.StrainFactors(**{name: row[name] for name in names})
@@ -86,7 +91,7 @@ def scene_of(row):
     return spectrum, rubber, at
 
 
-@pytest.mark.parametrize("table", ["gradients", "gradients_strain", "gradients_hot"])
+@pytest.mark.parametrize("table", TABLES)
 def test_slopes_by_definition(reference_table, table):
     """Differences of mu that another program computed, relative to mu."""
     made = {}

@@ -1,11 +1,16 @@
 """Objects of the rows of reference tables, and how near a number must come to a row."""
 
+from math import radians
+
 from asperity import MasterCurve, PronySeries, SelfAffineSpectrum, TabulatedSpectrum
 
 
 def self_affine(row):
-    names = ("rms_height", "hurst", "q0", "q1", "rolloff")
-    return SelfAffineSpectrum(**{name: row[name] for name in names})
+    names = ("rms_height", "hurst", "q0", "q1", "rolloff", "axis_ratio", "lay_deg")
+    given = {name: row[name] for name in names if row.get(name) is not None}
+    if "lay_deg" in given:
+        given["lay"] = radians(given.pop("lay_deg"))
+    return SelfAffineSpectrum(**given)
 
 
 def tabulated(row):

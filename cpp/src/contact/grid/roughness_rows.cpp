@@ -13,9 +13,20 @@ namespace asperity {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+namespace {
+
+using Entry = std::vector<double>;  // a share, and each harmonic times it
+
+}  // namespace
+
 RoughnessRows::RoughnessRows(std::span<const Segment> surface, bool of_table, const ContactGrid& grid,
-                             std::vector<double> wavenumber)
-    : surface_(surface), of_table_(of_table), rows_(std::move(wavenumber)), first_{0} {
+                             std::vector<double> wavenumber, const Directions* directions, std::size_t harmonics)
+    : surface_(surface),
+      of_table_(of_table),
+      rows_(std::move(wavenumber)),
+      first_{0},
+      directions_(directions),
+      harmonics_(directions ? harmonics : 0) {
   if (const RoughnessPieces* const pieces = grid.pieces()) {
     double from = surface.front().a;
     for (std::size_t i = 0; i < pieces->nodes().end.size(); ++i) {
@@ -52,8 +63,8 @@ void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stre
   const std::size_t n = stretch.count;
   const auto node = [&](std::size_t j) { return std::log(grid.wavenumber()[stretch.first + j]); };
   const LegendreRule& rule = legendre_rule(n + 2);
-  std::vector<std::map<std::size_t, double>> of(n);
-  std::vector<double> whole(n);
+  std::vector<std::map<std::size_t, Entry>> of(n);
+  std::vector<Entry> whole(n, Entry(harmonics_ + 1));
   auto segment = std::ranges::upper_bound(surface_, stretch.lower, {}, &Segment::b);
   for (; segment != surface_.end() && segment->a < stretch.upper; ++segment) {
     const double lower = std::fmax(stretch.lower, segment->a),
@@ -63,30 +74,42 @@ void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stre
       const double part = half * rule.weight[i] * square * square * segment->density(q);
       if (!(part > 0)) continue;
       const Shares at = shares_at(q);
+      const Rings rings = harmonics_ > 0 ? directions_->at(q) : Rings();
       for (std::size_t j = 0; j < n; ++j) {
         double polynomial = part;
         for (std::size_t k = 0; k < n; ++k)
           if (k != j) polynomial *= (y - node(k)) / (node(j) - node(k));
-        of[j][at.row] += polynomial * at.lower;
-        of[j][at.row + 1] += polynomial * at.upper;
-        whole[j] += polynomial;
+        const auto add = [&](Entry& to, double share) {
+          to.resize(harmonics_ + 1);
+          to[0] += share;
+          for (std::size_t m = 0; m < harmonics_; ++m) to[m + 1] += share * rings.along[m];
+        };
+        add(of[j][at.row], polynomial * at.lower);
+        add(of[j][at.row + 1], polynomial * at.upper);
+        add(whole[j], polynomial);
       }
     }
   }
   for (std::size_t j = 0; j < n; ++j) {
     for (const auto& [row, share] : of[j]) {
       row_.push_back(static_cast<Index>(row));
-      share_.push_back(share / whole[j]);
+      share_.push_back(share[0] / whole[j][0]);
+      for (std::size_t m = 1; m <= harmonics_; ++m)
+        rings_.push_back(share[m] / whole[j][0] - share_.back() * (whole[j][m] / whole[j][0]));
     }
     first_.push_back(row_.size());
   }
 }
 
-VectorXd RoughnessRows::operator()(const VectorXd& by_node) const {
+VectorXd RoughnessRows::operator()(const VectorXd& by_node, const Eigen::MatrixXd& by_rings) const {
   VectorXd result = VectorXd::Zero(static_cast<Index>(rows_.size()));
-  for (Index j = 0; j + 1 < static_cast<Index>(first_.size()); ++j)
-    for (std::size_t k = first_[static_cast<std::size_t>(j)]; k < first_[static_cast<std::size_t>(j) + 1]; ++k)
+  for (Index j = 0; j + 1 < static_cast<Index>(first_.size()); ++j) {
+    for (std::size_t k = first_[static_cast<std::size_t>(j)]; k < first_[static_cast<std::size_t>(j) + 1]; ++k) {
       result[row_[k]] += by_node[j] * share_[k];
+      for (std::size_t m = 0; m < harmonics_ && !rings_.empty(); ++m)
+        result[row_[k]] += by_rings(j, static_cast<Index>(m)) * rings_[k * harmonics_ + m];
+    }
+  }
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/grid/directions.hpp"
 #include "contact/grid/grid.hpp"
 #include "spectrum/segments.hpp"
 
@@ -14,11 +15,13 @@ namespace asperity {
 class RoughnessRows {
  public:
   /// `wavenumber` are the rows, at which panels of the grid end, or those of the table that its pieces are of.
+  /// Pieces take rings together: with `directions` the slope over a row is at its own first `harmonics`.
   RoughnessRows(std::span<const Segment> surface, bool of_table, const ContactGrid& grid,
-                std::vector<double> wavenumber);
+                std::vector<double> wavenumber, const Directions* directions = nullptr, std::size_t harmonics = 0);
   [[nodiscard]] const std::vector<double>& wavenumber() const { return rows_; }
-  /// From slopes of a number over ln C at all nodes to those over ln C of the rows.
-  [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& by_node) const;
+  /// From slopes of a number over ln C at all nodes, and over the harmonics there, a column each, to those over ln C of
+  /// the rows.
+  [[nodiscard]] Eigen::VectorXd operator()(const Eigen::VectorXd& by_node, const Eigen::MatrixXd& by_rings) const;
 
  private:
   /// The slopes of ln C at q over those of the row at or below it and of the next.
@@ -35,6 +38,9 @@ class RoughnessRows {
   std::vector<std::size_t> first_;  // of each node among the entries
   std::vector<Eigen::Index> row_;
   std::vector<double> share_;
+  const Directions* directions_;
+  std::size_t harmonics_;
+  std::vector<double> rings_;  // of each entry, its harmonics less those of the node, times the share
 };
 
 }  // namespace asperity

@@ -305,6 +305,7 @@ void PartialContactTheory::gradient(const ContactNumber& number, ContactGradient
   result.scale = by_part.sum() - tied + by_obstacle - off + through_g.sum();
   constexpr double end_power = 0.2;  // of 4 w_e / M in Z
   result.end_window = by_edges + end_power * by_obstacle;
+  result.edges = by_edges;
   result.total = -end_power * by_obstacle - off;
   if (cold) {
     const VectorXd& weight = grid_.weight();

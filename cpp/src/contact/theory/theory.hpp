@@ -49,6 +49,7 @@ struct ContactGradient {
   Eigen::VectorXd window;            // of the mean roughness about those of the band, with PartialContact
   double scale = 0;                  // of the scale of G
   double end_window = 0, total = 0;  // of w_e and of M
+  double edges = 0;                  // of those that are crossed over those of isotropic roughness
   double macro = 0;                  // over G at q_m itself, at unit load
   Eigen::VectorXd by_part;           // of the number, with Persson's theory
   Eigen::VectorXd cold_i2;           // of I2 at T0, where PartialContact holds its excess at that of T0
