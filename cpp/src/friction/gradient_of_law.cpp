@@ -35,8 +35,8 @@ void GradientChain::take_law() {
   if (law->rolloff) law_.push_back(kept(power * falls));
 }
 
-/// By differences, at a kept rms height. Nodes of q_m stand for a stretch, as in RoughnessRows; edges have no rings of
-/// their own, but those of the band.
+/// By differences of the shape, at a kept rms height. Nodes of q_m stand for a stretch, as in RoughnessRows; edges have
+/// no rings of their own, but those of the band.
 void GradientChain::take_directional_law() {
   constexpr double step = 1e-4;
   constexpr int parts = 32;  // of a stretch
@@ -57,18 +57,21 @@ void GradientChain::take_directional_law() {
   };
   const auto rows_of = [&](const SelfAffineSpectrum& of) {
     using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const std::vector<double> means = mean_harmonics(of, q, static_cast<std::size_t>(count));
+    const std::vector<double> means = shape_harmonics(of, q, static_cast<std::size_t>(count));
     Rows rows = Eigen::Map<const Rows>(means.data(), std::ssize(q), count);
     rows.rightCols(count - 1).array().colwise() /= rows.col(0).array();
     return rows;
   };
   const auto here = rows_of(law);
+  VectorXd height = grid_.weight().cwiseQuotient(VectorXd::Map(q.data(), band).cwiseAbs2());
+  height /= height.sum();
   const auto add = [&](auto change) {
     SelfAffineSpectrum less = law, more = law;
     change(less, 1 - step);
     change(more, 1 + step);
     const auto lower = rows_of(less), upper = rows_of(more);
-    const VectorXd log_c = (upper.col(0).array() / lower.col(0).array()).log() / (2 * step);
+    VectorXd log_c = (upper.col(0).array() / lower.col(0).array()).log() / (2 * step);
+    log_c.array() -= height.dot(log_c.head(band));
     VectorXd of_c = VectorXd::Zero(n);
     Eigen::MatrixXd of_rings = Eigen::MatrixXd::Zero(n, count);
     of_c.head(band) = log_c.head(band);

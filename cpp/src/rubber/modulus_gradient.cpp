@@ -63,6 +63,7 @@ ModulusGradient::ModulusGradient(const Rubber& rubber, double lowest, double hig
   else
     take_hats(lowest, highest);
   for (Stretch& stretch : stretches_) {
+    stretch.log_low = std::log(stretch.low);
     stretch.per_length = 1 / std::log(stretch.high / stretch.low);
     breaks_.push_back(stretch.low);
   }
@@ -86,18 +87,27 @@ void ModulusGradient::take_rows(const MasterCurve& curve) {
   constexpr std::size_t apart = 5;
   constexpr double moved = 1e-5;
   rows_ = curve.angular_frequency();
-  std::vector<std::array<MasterCurve, 2>> changed;  // less and more
-  for (std::size_t colour = 0; colour < apart; ++colour) {
-    const auto with = [&](double by) {
-      std::vector<double> storage = curve.storage_modulus(), loss = curve.loss_modulus();
-      for (std::size_t k = colour; k < rows_.size(); k += apart) {
-        storage[k] *= std::exp(by);
-        loss[k] *= std::exp(by);
-      }
-      return MasterCurve(rows_, storage, loss, curve.extrapolation());
-    };
-    changed.push_back({with(-moved), with(moved)});
-  }
+  const std::vector<double> x = logarithms(rows_);
+  const auto changed_by = [&](const std::vector<double>& of, double by) {
+    std::vector<Steffen> result;
+    for (std::size_t colour = 0; colour < apart; ++colour) {
+      std::vector<double> y = logarithms(of);
+      for (std::size_t k = colour; k < y.size(); k += apart) y[k] += by;
+      result.emplace_back(x, y);
+    }
+    return result;
+  };
+  const auto storage_less = changed_by(curve.storage_modulus(), -moved),
+             storage_more = changed_by(curve.storage_modulus(), moved),
+             loss_less = changed_by(curve.loss_modulus(), -moved), loss_more = changed_by(curve.loss_modulus(), moved);
+  // beyond the rows lines go on, or constants
+  const double beyond = curve.extrapolation() == Extrapolation::power_law ? 1 : 0;
+  const auto change = [&](const Steffen& less, const Steffen& more, double at) {
+    const std::size_t row = at < x.front() ? 0 : x.size() - 1;
+    const double inside = std::clamp(at, x.front(), x.back()),
+                 slope = at == inside ? 0 : beyond * (more.slope(row) - less.slope(row));
+    return (more(inside) - less(inside) + slope * (at - inside)) / (2 * moved);
+  };
   std::vector<double> edges{curve.knots().begin(), curve.knots().end()};
   double before = HUGE_VAL;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
@@ -112,14 +122,12 @@ void ModulusGradient::take_rows(const MasterCurve& curve) {
       const double high = k + 2 == breaks.size() ? edges[i + 1] : edges[i] * std::exp(breaks[k + 1]);
       Stretch stretch{edges[i] * std::exp(breaks[k]), high, static_cast<Index>(begin), static_cast<Index>(end - begin)};
       for (std::size_t row = begin; row < end; ++row) {
-        const auto& [less, more] = changed[row % apart];
+        const std::size_t colour = row % apart;
         Eigen::RowVector4d storage, loss;
         for (int j = 0; j < 4; ++j) {
-          const double w =
-              std::clamp(stretch.low * std::pow(stretch.high / stretch.low, j / 3.0), edges.front(), edges.back());
-          const std::complex<double> below_it = less.modulus(w), above_it = more.modulus(w);
-          storage[j] = std::log(above_it.real() / below_it.real()) / (2 * moved);
-          loss[j] = std::log(above_it.imag() / below_it.imag()) / (2 * moved);
+          const double y = std::log(stretch.low) + std::log(stretch.high / stretch.low) * (j / 3.0);
+          storage[j] = change(storage_less[colour], storage_more[colour], y);
+          loss[j] = change(loss_less[colour], loss_more[colour], y);
         }
         stretch.storage.row(static_cast<Index>(row - begin)) = cubic_through(storage);
         stretch.loss.row(static_cast<Index>(row - begin)) = cubic_through(loss);
@@ -129,8 +137,8 @@ void ModulusGradient::take_rows(const MasterCurve& curve) {
   }
 }
 
-double ModulusGradient::place(const Stretch& stretch, double w) const {
-  return std::clamp(std::log(w / stretch.low) * stretch.per_length, 0.0, 1.0);
+double ModulusGradient::place(const Stretch& stretch, double log_w) {
+  return std::clamp((log_w - stretch.log_low) * stretch.per_length, 0.0, 1.0);
 }
 
 std::size_t ModulusGradient::stretch_at(double w) const {
@@ -141,11 +149,20 @@ std::size_t ModulusGradient::stretch_at(double w) const {
 ModulusGradient::Node ModulusGradient::node_at(const Rubber& rubber, double w, double weight) const {
   const auto* const curve = std::get_if<MasterCurve>(&rubber);
   const double lowest = breaks_.front();
-  std::complex<double> e =
-      modulus(rubber, curve ? std::clamp(w, curve->lowest_frequency(), curve->highest_frequency()) : w);
-  if (curve && w < lowest) e.imag(e.imag() * w / lowest);  // there E' is constant
+  std::complex<double> e;
+  if (curve) {
+    e = curve->modulus(std::clamp(w, curve->lowest_frequency(), curve->highest_frequency()));
+    if (w < lowest) e.imag(e.imag() * w / lowest);  // there E' is constant
+  } else {                                          // many, and all terms of one together
+    const auto& series = std::get<PronySeries>(rubber);
+    const auto n = std::ssize(series.moduli());
+    const Eigen::Map<const Eigen::ArrayXd> moduli(series.moduli().data(), n), tau(series.relaxation_times().data(), n);
+    const auto x = (w * tau).min(1e140);  // whose square is a double
+    const auto of_loss = moduli * (x / (1 + x.square()));
+    e = {series.equilibrium_modulus() + (of_loss * x).sum(), of_loss.sum()};
+  }
   const Stretch& stretch = stretches_[stretch_at(w)];
-  const double x = place(stretch, w);
+  const double x = place(stretch, std::log(w));
   const Eigen::Vector4d powers(1, x, x * x, x * x * x);
   return {w,
           weight,
@@ -159,13 +176,17 @@ ModulusGradient::Node ModulusGradient::node_at(const Rubber& rubber, double w, d
 /// What a node has in the integrals at w, `kernel` its weight there. With cos(phi) = w' / w it has cos(2 k phi) times
 /// as much in K_k as in I2, and cos((2 k + 1) phi) / cos(phi) times as much in L_k as in I1.
 void ModulusGradient::add_node(const Node& node, double w, double kernel, Index place) {
-  const auto rows = Eigen::seqN(node.first, node.count), of = Eigen::seqN(Index{0}, node.count);
+  const Index n = i2_storage_.rows(), first = place * harmonics_ * n + node.first;
+  double *of_storage = i2_storage_.data() + first, *of_loss = i2_loss_.data() + first, *of_i1 = i1_loss_.data() + first;
   const double u = node.w / w, twice = 2 * (2 * u * u - 1), linear = node.loss > 0 ? 4 * kernel * u / node.loss : 0;
   double even = 1, even_before = twice / 2, odd = 1, odd_before = 1;
-  for (Index k = place * harmonics_; k < (place + 1) * harmonics_; ++k) {
-    i2_storage_(rows, k) += 8 * kernel * even * node.storage_square(of);
-    i2_loss_(rows, k) += 8 * kernel * even * node.loss_square(of);
-    i1_loss_(rows, k) += linear * odd * node.loss_square(of);
+  for (Index k = 0; k < harmonics_; ++k, of_storage += n, of_loss += n, of_i1 += n) {
+    const double square = 8 * kernel * even, by_loss = linear * odd;
+    for (Index row = 0; row < node.count; ++row) {
+      of_storage[row] += square * node.storage_square[row];
+      of_loss[row] += square * node.loss_square[row];
+      of_i1[row] += by_loss * node.loss_square[row];
+    }
     even_before = std::exchange(even, twice * even - even_before);
     odd_before = std::exchange(odd, twice * odd - odd_before);
   }
@@ -219,6 +240,7 @@ void IntegralSlopes::add(double at, double by_i1, double by_storage, double by_l
                          const double* of_i2) {
   if (by_i1 == 0 && by_storage == 0 && by_loss == 0) return;
   w.push_back(at);
+  log_w.push_back(std::log(at));
   for (std::size_t k = 0; k < rows; ++k) {
     i1.push_back(by_i1 * of_i1[k]);
     storage.push_back(by_storage * of_i2[k]);
@@ -229,19 +251,25 @@ void IntegralSlopes::add(double at, double by_i1, double by_storage, double by_l
 void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, VectorXd& loss) const {
   VectorXd i1 = VectorXd::Zero(i1_loss_.cols()), of_storage = i1, of_loss = i1;
   Index begin = i1.size(), end = 0;
+  std::size_t k = 0;
   for (std::size_t j = 0; j < of.w.size(); ++j) {
-    const double at = std::clamp(of.w[j], breaks_.front(), stretches_.back().high);
-    const std::size_t k = stretch_at(at);
-    const std::array<double, 6> share = lagrange(std::sqrt(place(stretches_[k], at)));
+    const double at = of.w[j];
+    if (at < breaks_[k] || (k + 1 < breaks_.size() && at >= breaks_[k + 1])) k = stretch_at(at);
+    const std::array<double, 6> share = lagrange(std::sqrt(place(stretches_[k], of.log_w[j])));
     const Index first = static_cast<Index>(k) * places * harmonics_;
-    for (int p = 0; p < places; ++p)
+    const double *const by_i1 = &of.i1[j * of.rows], *const by_storage = &of.storage[j * of.rows],
+                        *const by_loss = &of.loss[j * of.rows];
+    double *to_i1 = &i1[first], *to_storage = &of_storage[first], *to_loss = &of_loss[first];
+    for (const double part : share) {
       for (std::size_t h = 0; h < of.rows; ++h) {
-        const double part = share[static_cast<std::size_t>(p)];
-        const Index column = first + p * harmonics_ + static_cast<Index>(h);
-        i1[column] += of.i1[j * of.rows + h] * part;
-        of_storage[column] += of.storage[j * of.rows + h] * part;
-        of_loss[column] += of.loss[j * of.rows + h] * part;
+        to_i1[h] += by_i1[h] * part;
+        to_storage[h] += by_storage[h] * part;
+        to_loss[h] += by_loss[h] * part;
       }
+      to_i1 += harmonics_;
+      to_storage += harmonics_;
+      to_loss += harmonics_;
+    }
     begin = std::min(begin, first);
     end = std::max(end, first + places * harmonics_);
   }
@@ -254,7 +282,7 @@ void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, Ve
 
 void ModulusGradient::add_at(double w, double by_storage, double by_loss, VectorXd& storage, VectorXd& loss) const {
   const Stretch& stretch = stretches_[stretch_at(w)];
-  const double x = place(stretch, w);
+  const double x = place(stretch, std::log(w));
   const Eigen::Vector4d powers(1, x, x * x, x * x * x);
   storage.segment(stretch.first, stretch.count) += by_storage * (stretch.storage * powers).head(stretch.count);
   loss.segment(stretch.first, stretch.count) += by_loss * (stretch.loss * powers).head(stretch.count);

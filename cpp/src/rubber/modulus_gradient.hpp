@@ -13,7 +13,7 @@ namespace asperity {
 /// and the parts of K_k, k from 0, I1 and I2 themselves, to their number, beside each other.
 struct IntegralSlopes {
   std::size_t rows = 1;
-  std::vector<double> w, i1, storage, loss;
+  std::vector<double> w, log_w, i1, storage, loss;
   /// Each over as many `rows` of a wave, which has them times `of_i1` and `of_i2`.
   void add(double at, double by_i1, double by_storage, double by_loss, const double* of_i1, const double* of_i2);
 };
@@ -40,7 +40,7 @@ class ModulusGradient {
   struct Stretch {
     double low, high;  // [rad/s]
     Eigen::Index first, count;
-    double per_length = 0;  // 1 / ln(high / low)
+    double log_low = 0, per_length = 0;  // 1 / ln(high / low)
     Eigen::Matrix<double, most_rows, 4> storage = decltype(storage)::Zero(), loss = decltype(loss)::Zero();
   };
   /// A frequency of a rule: its weight, and what E'^2 and E''^2, E'' have there for each of the rows.
@@ -49,7 +49,7 @@ class ModulusGradient {
     Eigen::Index first, count;
     Eigen::Matrix<double, most_rows, 1> storage_square, loss_square;
   };
-  [[nodiscard]] double place(const Stretch& stretch, double w) const;
+  [[nodiscard]] static double place(const Stretch& stretch, double log_w);
   void take_hats(double lowest, double highest);
   void take_rows(const MasterCurve& curve);
   void take_integrals();

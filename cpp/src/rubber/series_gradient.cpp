@@ -60,15 +60,23 @@ SeriesGradient SeriesSlopes::operator()(const IntegralSlopes& of) const {
   // of I2 as a whole, and of its part by E'' what it has beside that
   std::vector<double> beside(of.loss.size());
   for (std::size_t j = 0; j < of.w.size(); ++j) {
-    const double x = std::clamp((std::log(of.w[j]) - first_) / step, 0.0, static_cast<double>(count - 1));
+    const double x = std::clamp((of.log_w[j] - first_) / step, 0.0, static_cast<double>(count - 1));
     const Index from = std::clamp<Index>(static_cast<Index>(x) - points / 2 + 1, 0, count - points);
     const std::array<double, points> share = lagrange(x - static_cast<double>(from));
-    for (std::size_t p = 0; p < points; ++p)
-      for (std::size_t h = 0; h < of.rows; ++h) {
-        const Index column = (from + static_cast<Index>(p)) * harmonics_ + static_cast<Index>(h);
-        by_i1[column] += of.i1[j * of.rows + h] * share[p];
-        by_i2[column] += of.storage[j * of.rows + h] * share[p];
+    const double *const i1 = &of.i1[j * of.rows], *const i2 = &of.storage[j * of.rows];
+    double *to_i1 = &by_i1[from * harmonics_], *to_i2 = &by_i2[from * harmonics_];
+    if (harmonics_ == 1) {
+      for (std::size_t p = 0; p < points; ++p) {
+        to_i1[p] += *i1 * share[p];
+        to_i2[p] += *i2 * share[p];
       }
+    } else {
+      for (std::size_t p = 0; p < points; ++p, to_i1 += harmonics_, to_i2 += harmonics_)
+        for (std::size_t h = 0; h < of.rows; ++h) {
+          to_i1[h] += i1[h] * share[p];
+          to_i2[h] += i2[h] * share[p];
+        }
+    }
     by_whole_i2 += of.storage[j * of.rows];
     begin = std::min(begin, from * harmonics_);
     end = std::max(end, (from + points) * harmonics_);

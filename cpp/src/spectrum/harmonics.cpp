@@ -97,14 +97,23 @@ double mean_of_shape(const SelfAffineSpectrum& s) {
   return means(law, 1, 1)[0];
 }
 
-std::vector<double> mean_harmonics(const SelfAffineSpectrum& law, std::span<const double> wavenumber,
-                                   std::size_t count) {
-  const std::vector<double> of_power = law.rolloff ? std::vector<double>() : means(law, 1, count);
-  const double top = density_at_rolloff(law) / (law.rolloff ? 1 : of_power[0]), from = law.rolloff.value_or(law.q0);
+std::vector<double> shape_harmonics(const SelfAffineSpectrum& law, std::span<const double> wavenumber,
+                                    std::size_t count) {
+  SelfAffineSpectrum power = law;
+  power.rolloff.reset();
+  const std::vector<double> of_power = means(power, 1, count);
+  const double from = law.rolloff.value_or(law.q0), root = std::sqrt(law.axis_ratio);
   std::vector<double> result;
   for (const double q : wavenumber) {
-    const double x = q / from, factor = top * (law.rolloff ? 1 : std::pow(x, -2 - 2 * law.hurst));
-    for (const double one : law.rolloff ? means(law, x, count) : of_power) result.push_back(factor * one);
+    const double x = q / from, factor = std::pow(x, fall(law));
+    if (law.rolloff && x < root) {  // it bends, or is flat already
+      std::vector<double> of_shape(count);
+      of_shape[0] = 1;
+      if (x > 1 / root) of_shape = means(law, x, count);
+      result.insert(result.end(), of_shape.begin(), of_shape.end());
+    } else {
+      for (const double one : of_power) result.push_back(factor * one);
+    }
   }
   return result;
 }

@@ -60,10 +60,10 @@ bool bends_by_direction(const SelfAffineSpectrum& s);
 /// The rows of a law that knows directions. Those of the last one are kept: a map and a sweep ask for them at each
 /// point.
 std::shared_ptr<const Spectrum> rows_of_law(const SelfAffineSpectrum& law);
-/// Means over directions of C of a law times cos 2 m (phi - lay), m = 0 to count - 1, at wavenumbers of the band: a row
-/// a wavenumber [m^4].
-std::vector<double> mean_harmonics(const SelfAffineSpectrum& law, std::span<const double> wavenumber,
-                                   std::size_t count);
+/// Means over directions of C of a law, over its C at the roll-off or at k = q0, times cos 2 m (phi - lay), m = 0 to
+/// count - 1: a row a wavenumber.
+std::vector<double> shape_harmonics(const SelfAffineSpectrum& law, std::span<const double> wavenumber,
+                                    std::size_t count);
 /// Mean over directions of (k / |q|)^(-2 - 2 H).
 double mean_of_shape(const SelfAffineSpectrum& s);
 /// h_rms^2 / (2 pi C_r) of one that bends.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "numerics/gauss_legendre.hpp"
 
@@ -12,12 +11,6 @@ namespace asperity {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-namespace {
-
-using Entry = std::vector<double>;  // a share, and each harmonic times it
-
-}  // namespace
 
 RoughnessRows::RoughnessRows(std::span<const Segment> surface, bool of_table, const ContactGrid& grid,
                              std::vector<double> wavenumber, const Directions* directions, std::size_t harmonics)
@@ -63,8 +56,14 @@ void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stre
   const std::size_t n = stretch.count;
   const auto node = [&](std::size_t j) { return std::log(grid.wavenumber()[stretch.first + j]); };
   const LegendreRule& rule = legendre_rule(n + 2);
-  std::vector<std::map<std::size_t, Entry>> of(n);
-  std::vector<Entry> whole(n, Entry(harmonics_ + 1));
+  // of each node and row a share, and each harmonic times it
+  const std::size_t width = harmonics_ + 1, from = shares_at(stretch.lower).row,
+                    rows = shares_at(stretch.upper).row + 2 - from;
+  std::vector<double> of(n * rows * width), whole(n * width);
+  const auto add = [&](double* to, double share, const Rings& rings) {
+    to[0] += share;
+    for (std::size_t m = 0; m < harmonics_; ++m) to[m + 1] += share * rings.along[m];
+  };
   auto segment = std::ranges::upper_bound(surface_, stretch.lower, {}, &Segment::b);
   for (; segment != surface_.end() && segment->a < stretch.upper; ++segment) {
     const double lower = std::fmax(stretch.lower, segment->a),
@@ -79,23 +78,21 @@ void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stre
         double polynomial = part;
         for (std::size_t k = 0; k < n; ++k)
           if (k != j) polynomial *= (y - node(k)) / (node(j) - node(k));
-        const auto add = [&](Entry& to, double share) {
-          to.resize(harmonics_ + 1);
-          to[0] += share;
-          for (std::size_t m = 0; m < harmonics_; ++m) to[m + 1] += share * rings.along[m];
-        };
-        add(of[j][at.row], polynomial * at.lower);
-        add(of[j][at.row + 1], polynomial * at.upper);
-        add(whole[j], polynomial);
+        double* const row = &of[(j * rows + at.row - from) * width];
+        add(row, polynomial * at.lower, rings);
+        add(row + width, polynomial * at.upper, rings);
+        add(&whole[j * width], polynomial, rings);
       }
     }
   }
   for (std::size_t j = 0; j < n; ++j) {
-    for (const auto& [row, share] : of[j]) {
-      row_.push_back(static_cast<Index>(row));
-      share_.push_back(share[0] / whole[j][0]);
-      for (std::size_t m = 1; m <= harmonics_; ++m)
-        rings_.push_back(share[m] / whole[j][0] - share_.back() * (whole[j][m] / whole[j][0]));
+    const double* const all = &whole[j * width];
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double* const share = &of[(j * rows + row) * width];
+      if (share[0] == 0) continue;
+      row_.push_back(static_cast<Index>(from + row));
+      share_.push_back(share[0] / all[0]);
+      for (std::size_t m = 1; m < width; ++m) rings_.push_back(share[m] / all[0] - share_.back() * (all[m] / all[0]));
     }
     first_.push_back(row_.size());
   }

@@ -3,6 +3,7 @@
 // B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "contact/grid/directions.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
@@ -86,8 +87,10 @@ class PerssonTheory final : public Theory {
     return factor_ ? p * (*factor_)(p) : p;
   }
   [[nodiscard]] double p_s_slope(double g) const {
-    const double p = p_of(g, form_), gamma = contact_.gamma;
-    return contact_slope(g, form_) * (factor_ ? gamma + 3 * (1 - gamma) * (p * p) : 1);
+    const double slope = contact_slope(g, form_), gamma = contact_.gamma;
+    if (!factor_) return slope;
+    const double p = p_of(g, form_);
+    return slope * (gamma + 3 * (1 - gamma) * (p * p));
   }
   void integral_of(const double* g, Index n, double* f) const;
   void take_stress();
@@ -221,9 +224,11 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
   result.i2.setZero(i2_.size());
   result.weight.setZero(i2_.size());
   result.window.setZero(n);
+  double at_begin = p_s(edge_[0]);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
     const auto edge = static_cast<Index>(c);
+    const double at_end = p_s(edge_[c + 1]), before = std::exchange(at_begin, at_end);
     if (cells[c].rule) {  // by dF = P S dG
       const LegendreRule& rule = *cells[c].rule;
       using Columns = Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>;
@@ -232,13 +237,13 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
       const VectorXd by_measure = number.by_part.segment(first, count).cwiseProduct(ratio_.segment(first, count)),
                      by_f = -(slope * by_measure);
       for (Index i = 0; i < count; ++i) by_node[first + i] = p_s(g_at_load_[first + i]) * by_f[i];
-      by_edge[edge + 1] += p_s(edge_[c + 1]) * at_upper.dot(by_measure);
-      by_edge[edge] -= p_s(edge_[c]) * at_lower.dot(by_measure);
+      by_edge[edge + 1] += at_end * at_upper.dot(by_measure);
+      by_edge[edge] -= before * at_lower.dot(by_measure);
     } else {  // the nodes share what F rises
       const double whole = result.ratio[first] + result.ratio[first + 1], rise = f_edge_[c + 1] - f_edge_[c];
       if (!(rise > 0)) continue;
-      by_edge[edge + 1] += p_s(edge_[c + 1]) * whole / rise;
-      by_edge[edge] -= p_s(edge_[c]) * whole / rise;
+      by_edge[edge + 1] += at_end * whole / rise;
+      by_edge[edge] -= before * whole / rise;
       for (Index i = first; i < first + count; ++i) {
         if (!(ratio_[i] > 0 && stress_[i] > 0)) continue;
         result.weight[i] = result.ratio[i] - whole * (part_[i] / ratio_[i]) / rise;
