@@ -34,9 +34,7 @@ ContactGridOptions grid_options(const GradientScene& scene, std::size_t number, 
     result.pieces = cut ? cut.get() : &roughness_pieces(*table, number);
     return result;
   }
-  result.stops = scene.rows;
-  const std::vector<double> kinks = waves.stops();
-  result.stops.insert(result.stops.end(), kinks.begin(), kinks.end());
+  result.stops = waves.stops();
   if (result.window) result.stops.push_back(window.last_from());  // where what moves q_e begins
   return result;
 }

@@ -22,11 +22,8 @@ std::vector<std::string> heating_arguments(const Heating& heating, bool adhesion
 
 HotGradient::HotGradient(const GradientScene& scene, const HeatScene& heat, Branch branch)
     : scene_(scene), heat_(heat), solve_(heat, branch) {
-  if (!std::holds_alternative<SelfAffineSpectrum>(scene.spectrum)) return;
-  std::vector<double> stops = scene.rows;
-  if (has_own_rule(scene.model.correction))
-    stops.push_back(RoughnessWindow(scene.surface).last_from());  // where what moves q_e begins
-  solve_.set_stops(std::move(stops));
+  if (std::holds_alternative<SelfAffineSpectrum>(scene.spectrum) && has_own_rule(scene.model.correction))
+    solve_.set_stops({RoughnessWindow(scene.surface).last_from()});  // where what moves q_e begins
 }
 
 GradientChain& HotGradient::chain_of(const FlashMap& map) {

@@ -1,5 +1,5 @@
-// On a panel a node has the shares of the rows at its wavenumber. Elsewhere nodes stand for a stretch, the polynomial
-// l_j for one that is 1 there and 0 at the others: it has int c l_j s dy of a row's share s, over int c l_j dy.
+// Nodes stand for a stretch, the polynomial l_j for one that is 1 there and 0 at the others: it has int c l_j s dy of a
+// row's share s, over int c l_j dy.
 #include "contact/grid/roughness_rows.hpp"
 
 #include <algorithm>
@@ -27,15 +27,11 @@ RoughnessRows::RoughnessRows(std::span<const Segment> surface, bool of_table, co
       from = pieces->nodes().end[i];
     }
     for (const ContactGrid::Stretch& stretch : grid.macro_stretches()) add_stretch(grid, stretch);
-    first_.resize(grid.size() + 1, row_.size());
-    return;
+  } else {
+    for (const ContactGrid::Cell& cell : grid.cells())
+      add_stretch(grid, {cell.first, cell.count, grid.wavenumber_at(cell.lower), cell.end});
   }
-  for (std::size_t j = 0; j < grid.band_size(); ++j) {
-    const Shares at = shares_at(grid.wavenumber()[j]);
-    row_.insert(row_.end(), {static_cast<Index>(at.row), static_cast<Index>(at.row) + 1});
-    share_.insert(share_.end(), {at.lower, at.upper});
-    first_.push_back(row_.size());
-  }
+  first_.resize(grid.size() + 1, row_.size());
 }
 
 RoughnessRows::Shares RoughnessRows::shares_at(double wavenumber) const {
@@ -54,8 +50,16 @@ RoughnessRows::Shares RoughnessRows::shares_at(double wavenumber) const {
 void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch) {
   first_.resize(stretch.first + 1, row_.size());
   const std::size_t n = stretch.count;
-  const auto node = [&](std::size_t j) { return std::log(grid.wavenumber()[stretch.first + j]); };
-  const LegendreRule& rule = legendre_rule(n + 2);
+  const double start = std::log(grid.wavenumber_at(0));
+  const auto place = [&](double q) {  // panels are of sqrt(ln q)
+    return grid.pieces() ? std::log(q) : std::sqrt(std::fmax(0, std::log(q) - start));
+  };
+  std::vector<double> node(n), scale(n, 1.0);
+  for (std::size_t j = 0; j < n; ++j) node[j] = place(grid.wavenumber()[stretch.first + j]);
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t k = 0; k < n; ++k)
+      if (k != j) scale[j] /= node[j] - node[k];
+  const LegendreRule& rule = legendre_rule(std::min(n + 2, LegendreRule::most));
   // of each node and row a share, and each harmonic times it
   const std::size_t width = harmonics_ + 1, from = shares_at(stretch.lower).row,
                     rows = shares_at(stretch.upper).row + 2 - from;
@@ -64,20 +68,26 @@ void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stre
     to[0] += share;
     for (std::size_t m = 0; m < harmonics_; ++m) to[m + 1] += share * rings.along[m];
   };
+  std::vector<double> ends{stretch.lower, stretch.upper};
+  for (const double row : rows_)
+    if (row > stretch.lower && row < stretch.upper) ends.push_back(row);
   auto segment = std::ranges::upper_bound(surface_, stretch.lower, {}, &Segment::b);
-  for (; segment != surface_.end() && segment->a < stretch.upper; ++segment) {
-    const double lower = std::fmax(stretch.lower, segment->a),
-                 half = std::log(std::fmin(stretch.upper, segment->b) / lower) / 2;
+  for (auto one = segment; one != surface_.end() && one->b < stretch.upper; ++one) ends.push_back(one->b);
+  std::ranges::sort(ends);
+  for (std::size_t end = 1; end < ends.size(); ++end) {
+    const double lower = ends[end - 1], half = std::log(ends[end] / lower) / 2;
+    if (!(half > 0)) continue;
+    while (segment->b <= lower && segment + 1 != surface_.end()) ++segment;
     for (std::size_t i = 0; i < rule.n; ++i) {
-      const double q = lower * std::exp(half * (1 + rule.node[i])), y = std::log(q), square = q * q;
+      const double q = lower * std::exp(half * (1 + rule.node[i])), t = place(q), square = q * q;
       const double part = half * rule.weight[i] * square * square * segment->density(q);
       if (!(part > 0)) continue;
       const Shares at = shares_at(q);
       const Rings rings = harmonics_ > 0 ? directions_->at(q) : Rings();
       for (std::size_t j = 0; j < n; ++j) {
-        double polynomial = part;
+        double polynomial = part * scale[j];
         for (std::size_t k = 0; k < n; ++k)
-          if (k != j) polynomial *= (y - node(k)) / (node(j) - node(k));
+          if (k != j) polynomial *= t - node[k];
         double* const row = &of[(j * rows + at.row - from) * width];
         add(row, polynomial * at.lower, rings);
         add(row + width, polynomial * at.upper, rings);

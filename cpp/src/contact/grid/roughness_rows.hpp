@@ -14,7 +14,7 @@ namespace asperity {
 /// Between two rows ln C changes linearly with theirs, as a table has it; beside a row of zero C does.
 class RoughnessRows {
  public:
-  /// `wavenumber` are the rows, at which panels of the grid end, or those of the table that its pieces are of.
+  /// `wavenumber` are the rows, those of the table that pieces of the grid are of.
   /// Pieces take rings together: with `directions` the slope over a row is at its own first `harmonics`.
   RoughnessRows(std::span<const Segment> surface, bool of_table, const ContactGrid& grid,
                 std::vector<double> wavenumber, const Directions* directions = nullptr, std::size_t harmonics = 0);
