@@ -3,13 +3,13 @@
     python tests/stability/random_gradients.py [--scenes 2000] [--seed 1] [--first 0]
 
 Roads, rings, Prony series, master curves of rows anywhere, corrections, adhesion, heat and thermal
-constants are drawn as in random_heat.py, strain factors beside them; half of the scenes have no
-heat. At one velocity some slopes of each are held to central differences of mu of a finer rtol, and
-the integrals of the densities to d mu / d ln p, where the hysteresis stands alone. Of a difference
-its own error is allowed too, as two steps, what bends between them and the errors of mu tell it;
-where that is above a thousandth of mu it says nothing and is left out. Printed: how many slopes
-were compared, errors over those stated, which slopes exceeded, errors stated and found over mu.
-Exit status 1 where one exceeded.
+constants are drawn as in random_heat.py, strain factors and ridges beside them; half of the scenes
+have no heat. At one velocity some slopes of each are held to central differences of mu of a finer
+rtol, and the integrals of the densities to d mu / d ln p, where the hysteresis stands alone. Of a
+difference its own error is allowed too, as two steps, what bends between them and the errors of mu
+tell it; where that is above a thousandth of mu it says nothing and is left out. Printed: how
+many slopes were compared, errors over those stated, which slopes exceeded, errors stated and found
+over mu. Exit status 1 where one exceeded.
 """
 
 import argparse
@@ -26,7 +26,9 @@ import random_heat
 import asperity
 
 SHARES = {"rings": 0.3, "curves": 0.3}
+RIDGES = 0.3  # share of roads that know directions
 STEP = 1e-3
+OF_RIDGES = 5e-3  # whose mu is known to 1e-7 at best
 OF_ROWS = 2e-4  # whose interpolant has kinks
 TELLING = 1e-3  # of mu
 LONGEST = 10  # scalars and rows a scene
@@ -65,7 +67,25 @@ def draw(seed: int, scene: int) -> tuple[Any, Any, dict[str, Any]]:
         at["strain_factors"] = asperity.StrainFactors(
             strain=strain, storage=factors["a"], loss=factors["b"], strain_per_slope=0.5
         )
+    if rng.random() < RIDGES:
+        at["direction"] = float(rng.uniform(-np.pi, np.pi))
+        road = with_ridges(road, rng)
     return road, rubber, at
+
+
+def with_ridges(road: Any, rng: Any) -> Any:
+    """The road with ellipses, or with harmonics of each ring about those of all."""
+    kept = {one: getattr(road, one) for one in inspect.signature(type(road)).parameters}
+    if isinstance(road, asperity.SelfAffineSpectrum):
+        lay, ratio = float(rng.uniform(0, np.pi)), float(rng.uniform(1.2, 6))
+        return type(road)(**kept | {"axis_ratio": ratio, "lay": lay})
+    count = int(rng.integers(1, 7))
+    size = rng.uniform(0.05, 0.3) / np.arange(1, count + 1) ** 2
+    each = [
+        size * (rng.uniform(-1, 1, count) + 0.3 * rng.uniform(-1, 1, (road.density.size, count)))
+        for _ in range(2)
+    ]
+    return type(road)(**kept | {"cosine": each[0], "sine": each[1]})
 
 
 def weights(rows: Any) -> Any:
@@ -102,8 +122,8 @@ def numbers(
         lambda x: (road, rubber, at | {"temperature": at["temperature"] + 10 * x}),
     )
     if isinstance(road, asperity.SelfAffineSpectrum):
-        for name in ("rms_height", "hurst", "q0", "q1", "rolloff"):
-            if getattr(road, name) is not None and (name != "hurst" or road.hurst < 0.98):
+        for name in ("rms_height", "hurst", "q0", "q1", "rolloff", "axis_ratio"):
+            if getattr(of, name) is not None and (name != "hurst" or road.hurst < 0.98):
                 yield name, getattr(of, name), of_road(name)
     else:
         row = int(rng.choice(np.flatnonzero(road.density)))
@@ -111,6 +131,12 @@ def numbers(
             "spectrum",
             float(of.spectrum[row] * weights(of.wavenumber)[row]),
             of_road("density", row),
+        )
+    if of.direction is not None:
+        yield (
+            "direction",
+            of.direction,
+            lambda x: (road, rubber, at | {"direction": at["direction"] + x}),
         )
     w = weights(of.angular_frequency)
     if isinstance(rubber, asperity.PronySeries):
@@ -150,7 +176,8 @@ def compute(seed: int, scene: int) -> Outcome:
     rng = np.random.default_rng([seed, scene, 1])
     table = isinstance(road, asperity.TabulatedSpectrum)
     measured = isinstance(rubber, asperity.MasterCurve)
-    finer = 1e-8 if table or measured else 1e-10
+    finer = 1e-7 if road.is_directional else 1e-8 if table or measured else 1e-10
+    usual = OF_RIDGES if road.is_directional else STEP
     outcome = Outcome()
 
     def mu(of: tuple[Any, Any, dict[str, Any]]) -> Any:
@@ -169,7 +196,7 @@ def compute(seed: int, scene: int) -> Outcome:
     middle = functools.cache(lambda: mu((road, rubber, at)))
     chosen = rng.permutation(len(all_numbers))[:LONGEST]
     for name, slope, change in (all_numbers[k] for k in chosen):
-        step = OF_ROWS if name.endswith("modulus") and measured else STEP
+        step = OF_ROWS if name.endswith("modulus") and measured else usual
         try:
             near, far = ([mu(change(side * h)) for side in (-1, 1)] for h in (step, 2 * step))
             here = middle().mu

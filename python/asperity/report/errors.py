@@ -60,8 +60,10 @@ def _of_inputs(scene: Scene, result: SceneFriction) -> Told:
     return Told(
         "the inputs",
         f"mu is down to {percent_text(down)} lower and up to {percent_text(up)} higher",
-        f"{100 * sampling['level']:.4g} % of {sampling['samples']} draws of the measured inputs "
-        f"within their standard errors (seed {sampling['seed']})",
+        f"{100 * sampling['level']:.4g} % by the slopes of mu and the standard errors of the inputs"
+        if sampling["method"] == "linear"
+        else f"{100 * sampling['level']:.4g} % of {sampling['samples']} draws of the measured "
+        f"inputs within their standard errors (seed {sampling['seed']})",
     )
 
 

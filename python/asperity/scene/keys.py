@@ -100,7 +100,7 @@ CONDITIONS = {
 }
 SOLVER = fields_of(friction, "rtol", "form", "method")
 NAMES = {**names_of("conditions", CONDITIONS), **names_of("solver", SOLVER)}
-UNCERTAINTY = fields_of(friction_band, "samples", "seed", "level")
+UNCERTAINTY = fields_of(friction_band, "method", "samples", "seed", "level")
 NOTED = {"heating": "[heating]", "strain_factors": "[rubber] strain"}  # arguments that notes name
 KEYS: dict[str, dict[str, Field]] = {  # of every table that a scene may have
     "surface": SURFACE,

@@ -298,9 +298,12 @@ class Scene:
         options = {name: self.options[name] for name in held if name in self.options}
         options["correction"] = self.correction
         rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn
-        if self.heating is not None:
-            options |= {"temperature": self.temperature, "heating": self.heating}
-            rubber = known(self.built_rubber.drawn_at_reference)
+        built = self.built_rubber
+        linear = self.sampling["method"] == "linear" and built.drawn_at_reference is not None
+        if self.heating is not None or linear:  # slopes know T by the shift
+            temperature = built.temperature if self.temperature is None else self.temperature
+            options |= {"temperature": temperature, "heating": self.heating}
+            rubber = known(built.drawn_at_reference)
         with rename_in_errors(self.path, {**NAMES, **_SAMPLING}, self.typed):
             yield self.surface.drawn, rubber, self.adhesion, options
 

@@ -277,7 +277,8 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
         return ShiftedRubber(_at_temperature(path, at_reference, build, beyond), build)
 
     plain = shifted(build, extrapolation)
-    drawn = Drawn(plain, lambda rng: shifted(draw_build(build, rng), "prony"))
+    source = None if fitted else build
+    drawn = Drawn(plain, lambda rng: shifted(draw_build(build, rng), "prony"), source=source)
     return replace(made, shift=build, at_reference=plain.rubber, drawn_at_reference=drawn)
 
 

@@ -178,7 +178,8 @@ def build_surface(path: Path, table: object, read: Read | None = None) -> Surfac
         derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
         notes += _fit_notes(fit, spectrum)
         of_heights = _core.notes_on_heights(measured._core)
-        drawn = Drawn[Spectrum](spectrum, partial(_draw_fit, fit, spectrum.q0, spectrum.q1))
+        draw = partial(_draw_fit, fit, spectrum.q0, spectrum.q1)
+        drawn = Drawn[Spectrum](spectrum, draw, source=fit)
     return Surface(spectrum, scan, values, derived, notes, drawn, fit, lay, of_heights)
 
 

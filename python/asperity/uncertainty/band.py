@@ -18,7 +18,7 @@ from asperity.base.arguments import (
     shaped,
     whole,
 )
-from asperity.base.diagnostics import Argument, Note, refusal
+from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal, valued
 from asperity.base.executors import in_order
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
@@ -50,6 +50,7 @@ from asperity.uncertainty.scan import HeldScan, beyond_scan
 Solid = Rubber | ShiftedRubber
 DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]
 
+METHODS = ("draws", "linear")
 _SWEPT = 13  # velocities at which the band of a sweep is computed
 _FAILURES = (InvalidInput, NotConverged, OutOfRange)
 _FAILED = 0.1  # share of draws that may fail: without more of them a band would be another
@@ -234,8 +235,9 @@ def friction_band(
     result = friction(plain, of_build, adhesion=adhesion, shift=shift, **given_at, **options)
     shape, columns = broadcast(**given_at)
     at = dict(zip(given_at, map(np.atleast_1d, columns), strict=True))
-    if choice(method, "method", ("draws", "linear")):
-        linear = linear_band(spectrum, rubber, adhesion, at, {**options, "shift": shift}, level)
+    if choice(method, "method", METHODS):
+        source = rubber if isinstance(rubber, MasterCurveBuild) else of_build
+        linear = linear_band(surface, source, adhesion, at, {**options, "shift": shift}, level)
         return _band(result, Bounds(*linear), shape, level, samples=0)
     drawn: Drawn[Rubber] | Drawn[ShiftedRubber] = solid
     if temperature is not None:
@@ -280,11 +282,14 @@ def relative_band(
     progress: Callable[[Any], AbstractContextManager[Any]] = nullcontext,
     refit: DrawAdhesion | None = None,
     threads: int = 1,
+    method: str = "draws",
 ) -> Bounds:
     """Return quantiles of mu of drawn inputs over mu of the plain ones; 1 without friction.
 
     `refit` gives the adhesion that goes with a drawn spectrum and rubber.
     """
+    if method == "linear":
+        return _linear(spectrum, rubber, adhesion, options, level, refit)
     whole(samples, "samples", lowest=20)
     whole(seed, "seed")
     whole(threads, "threads", lowest=1, highest=MOST_THREADS)
@@ -354,6 +359,32 @@ def relative_band(
     outside = (1 - level) / 2
     lower, upper = np.quantile(ratio, [outside, 1 - outside], axis=0)
     return Bounds(lower, upper, notes)
+
+
+def _linear(
+    spectrum: Drawn[Spectrum],
+    rubber: Drawn[Rubber] | Drawn[ShiftedRubber],
+    adhesion: Adhesion | None,
+    options: dict[str, Any],
+    level: float,
+    refit: DrawAdhesion | None,
+) -> Bounds:
+    """Return the same from slopes."""
+    named = Argument("method"), " = ", valued("linear", '"linear"'), MUST_BE
+    if refit is not None:
+        raise InvalidInput(*named, '"draws" where each draw is fitted anew')
+    if rubber.draw is not None and rubber.source is None:
+        raise InvalidInput(*named, '"draws" with a Prony fit of isotherms, or a vertical shift')
+    plain, shift = rubber.plain, None
+    if isinstance(plain, ShiftedRubber):
+        plain, shift = plain
+    solid = plain if rubber.source is None else rubber.source
+    names = ("pressure", "velocity", "temperature")
+    size = np.size(options["pressure"])
+    at = {name: np.broadcast_to(options[name], size) for name in names if name in options}
+    if rubber.source is None:
+        options = {**options, "shift": shift}
+    return Bounds(*linear_band(spectrum, solid, adhesion, at, options, level))
 
 
 def _left_out(failed: int, samples: int, problem: Exception) -> Note:

@@ -42,6 +42,7 @@ class Drawn(Generic[Input]):
     plain: Input
     draw: Callable[[Generator], Input] | None = None
     whole: Input | None = None  # the plain one, where that is in bins
+    source: Any = None  # what has the errors: a fit, a table or a build, which linear bands take
 
     def __call__(self, rng: Generator) -> Input:
         return self.plain if self.draw is None else self.draw(rng)
@@ -51,12 +52,12 @@ def drawn_spectrum(source: Spectrum | SelfAffineFit) -> Drawn[Spectrum]:
     """A fit from the covariance of its parameters; a table from the errors of its rows, in bins: a
     band needs no more of them. Rows that know directions stay, and move with the bins."""
     if isinstance(source, SelfAffineFit):
-        return Drawn[Spectrum](source.spectrum, partial(draw_fit, source))
+        return Drawn[Spectrum](source.spectrum, partial(draw_fit, source), source=source)
     if isinstance(source, TabulatedSpectrum) and source.standard_error is not None:
         table = source.log_binned(per_decade=_ROWS_PER_DECADE)
         if source.is_directional:
-            return Drawn[Spectrum](source, partial(_draw_rings, source, table))
-        return Drawn[Spectrum](table, partial(_draw_rows, table), source)
+            return Drawn[Spectrum](source, partial(_draw_rings, source, table), source=source)
+        return Drawn[Spectrum](table, partial(_draw_rows, table), source, source)
     return Drawn[Spectrum](source)
 
 
@@ -152,7 +153,7 @@ def drawn_rubber(source: Rubber | MasterCurveBuild) -> Drawn[Rubber]:
     def draw(rng: Generator) -> MasterCurve:
         return draw_build(source, rng).master_curve
 
-    return Drawn[Rubber](source.master_curve, draw)
+    return Drawn[Rubber](source.master_curve, draw, source=source)
 
 
 def drawn_shifted(
@@ -166,7 +167,7 @@ def drawn_shifted(
     def of(build: MasterCurveBuild) -> ShiftedRubber:
         return ShiftedRubber(build.master_curve, build if shift is None else shift)
 
-    return Drawn(of(source), lambda rng: of(draw_build(source, rng)))
+    return Drawn(of(source), lambda rng: of(draw_build(source, rng)), source=source)
 
 
 def draw_build(build: MasterCurveBuild, rng: Generator) -> MasterCurveBuild:

@@ -13,7 +13,7 @@ from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.base.arguments import number
 from asperity.base.diagnostics import Argument, Note, refusal
-from asperity.dma import AnyRubber, MasterCurveBuild, master_curve_modes, rubber_of
+from asperity.dma import MasterCurveBuild, master_curve_modes, rubber_of
 from asperity.friction import Friction, friction
 from asperity.results.gradients import Gradients
 from asperity.rubber import MasterCurve, Rubber
@@ -21,8 +21,8 @@ from asperity.scan_contact import ScanContact
 from asperity.self_affine_fit import AnySpectrum, SelfAffineFit
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.uncertainty.draws import (
+    Drawn,
     adhesion_covariance,
-    drawn_spectrum,
     fit_covariance,
     row_covariance,
 )
@@ -47,28 +47,28 @@ class _Input:
 
 
 def linear_band(
-    spectrum: AnySpectrum,
-    rubber: AnyRubber,
+    spectrum: Drawn[Spectrum],
+    rubber: Rubber | MasterCurveBuild,
     adhesion: Adhesion | None,
     at: dict[str, Array],
     options: dict[str, Any],
     level: float,
 ) -> tuple[Array, Array, tuple[Note, ...]]:
     """Return both ends of a band over mu at flat points, one temperature after another, and where
-    slopes are not good enough."""
+    slopes are not good enough. A build is taken at its reference, or at the temperatures."""
     if not 0 < number(level, "level") < 1:
         raise refusal("level", level, "in (0, 1)", text=f"{level}")
     of_scan = isinstance(options["correction"], ScanContact)
     for name in ("correction" * of_scan, "heating", "strain_factors"):
-        if name and (one := options[name]) is not None:
+        if name and (one := options.get(name)) is not None:
             text = f': {type(one).__name__} has no linear band, take method="draws"'
             raise InvalidInput(Argument(name), text)
-    if drawn_spectrum(spectrum).plain.is_directional:
+    if spectrum.plain.is_directional:
         text = ': knows directions, whose errors have no linear band, take method="draws"'
         raise InvalidInput(Argument("spectrum"), text)
     names = ("poisson_ratio", "correction", "form", "shift")
-    options = {name: options[name] for name in names} | {"rtol": 1e-4}
-    of_build = isinstance(rubber, MasterCurveBuild) and options["shift"] is None
+    options = {name: options[name] for name in names if name in options} | {"rtol": 1e-4}
+    of_build = isinstance(rubber, MasterCurveBuild) and options.get("shift") is None
     if of_build and "temperature" in at:
         options["shift"] = rubber
     size = at["pressure"].size
@@ -86,18 +86,18 @@ def linear_band(
 
 
 def _deviation(
-    spectrum: AnySpectrum,
-    rubber: AnyRubber,
+    spectrum: Drawn[Spectrum],
+    rubber: Rubber | MasterCurveBuild,
     adhesion: Adhesion | None,
     temperature: float | None,
     options: dict[str, Any],
 ) -> tuple[Array, Array]:
     """Return the standard deviation of ln mu at the points of `options`, and by how many of it mu
     leaves the slopes where every mode is at one of its own, with signs at random and opposite."""
-    plain = drawn_spectrum(spectrum).plain
+    plain = spectrum.plain
     inputs: dict[str, _Input] = {}
     result = friction(plain, rubber_of(rubber), adhesion=adhesion, gradients=True, **options)
-    if (surface := _surface(spectrum, plain)) is not None:
+    if (surface := _surface(spectrum.source, plain)) is not None:
         inputs["spectrum"] = surface
     if isinstance(rubber, MasterCurveBuild):
         inputs["rubber"] = _rubber(rubber, result, adhesion, temperature)
@@ -132,9 +132,9 @@ def _curvature_notes(curved: Array) -> tuple[Note, ...]:
     return (Note(text, code="linear-band-off"),)
 
 
-def _surface(source: AnySpectrum, plain: Spectrum) -> _Input | None:
+def _surface(source: AnySpectrum | None, plain: Spectrum) -> _Input | None:
     if isinstance(source, SelfAffineFit):
-        return _law(source)
+        return _law(source, plain)
     if not isinstance(plain, TabulatedSpectrum) or plain.standard_error is None:
         return None
     table, weight = plain, _weights(plain.wavenumber)
@@ -147,22 +147,33 @@ def _surface(source: AnySpectrum, plain: Spectrum) -> _Input | None:
     return _Input(_root(covariance), lambda result: _of(result).spectrum * weight, moved)
 
 
-def _law(fit: SelfAffineFit) -> _Input:
-    def slopes(result: Friction) -> Array:
-        of = _of(result)
-        columns = [of.rms_height, of.hurst / fit.hurst]
-        return np.stack([*columns, *([of.rolloff] if fit.rolloff else [])], axis=-1)
+def _law(fit: SelfAffineFit, plain: Spectrum) -> _Input:
+    """The fitted law, and the rms height of its band: mu may be of another band."""
 
     def moved(by: Array) -> SelfAffineSpectrum:
-        return SelfAffineSpectrum(
+        law = SelfAffineSpectrum(
             rms_height=fit.rms_height * float(np.exp(by[0])),
             hurst=min(fit.hurst + float(by[1]), 1.0),
             q0=fit.q0,
             q1=fit.q1,
             rolloff=None if fit.rolloff is None else fit.rolloff * float(np.exp(by[2])),
         )
+        return law.extended(q0=plain.q0, q1=plain.q1)
 
-    return _Input(_root(fit_covariance(fit)), slopes, moved)
+    def height(by: Array) -> float:
+        return float(np.log(moved(by).rms_height / plain.rms_height))
+
+    covariance = fit_covariance(fit)
+    step = 1e-4 * np.eye(len(covariance))
+    of_height = np.array([(height(one) - height(-one)) / 2e-4 for one in step])
+
+    def slopes(result: Friction) -> Array:
+        of = _of(result)
+        beside = [0 * of.hurst, of.hurst / fit.hurst, *([of.rolloff] if fit.rolloff else [])]
+        both: Array = of.rms_height[:, None] * of_height + np.stack(beside, axis=-1)
+        return both
+
+    return _Input(_root(covariance), slopes, moved)
 
 
 def _rubber(

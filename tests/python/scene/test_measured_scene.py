@@ -31,6 +31,9 @@ pressure_pa = 2e5
 velocity_m_s = { from = 1e-4, to = 1e-3, points = 9 }
 """
 
+# a fit on a narrower band than that of its scan
+FITTED = scenes.SCAN + 'fit = "self-affine"\nq0_per_m = 5000.0\nq1_per_m = 8e4\n'
+
 
 @pytest.fixture
 def dma(tmp_path: Path) -> Path:
@@ -182,3 +185,31 @@ def test_a_comparison_has_the_notes_of_the_scene_once_in_its_unit(dma: Path) -> 
     measured = {"velocity": [1e-4, 1e-3], "mu": [0.5, 0.6]}
     codes = [note.code for note in asperity.fit_scene(scene, measured).notes]
     assert codes.count("different-shifts") == 1
+
+
+@pytest.mark.parametrize("surface", [scenes.SURFACE, FITTED])
+def test_a_linear_band_is_about_that_of_draws(dma: Path, surface: str) -> None:
+    if "scan" in surface:
+        law = asperity.SelfAffineSpectrum(rms_height=76e-6, hurst=0.7, q0=5000.0, q1=1e5)
+        rough = asperity.synthesize(law, shape=(512, 1024), pixel_size=(2e-5, 1e-5), seed=1)
+        np.save(dma / "scan.npy", rough.heights * 1e6)
+    slow, _ = known(dma)
+    text = swept(SCENE, slow * 10, slow * 1e3)
+
+    def widths(method: str) -> Any:
+        asked = f'[uncertainty]\nmethod = "{method}"\nsamples = 200\n'
+        scene = loaded(dma, text + asked, surface)
+        low, high, _ = scene.band(np.ones((1, scene.velocity.size)))
+        assert (low < high).all()
+        return np.log(high / low)
+
+    np.testing.assert_allclose(widths("linear"), widths("draws"), rtol=0.25)
+
+
+def test_a_linear_band_is_refused_where_the_rubber_is_drawn_otherwise(dma: Path) -> None:
+    asked = '[uncertainty]\nmethod = "linear"\n'
+    text = SCENE.replace("temperature_c", "prony = true\ntemperature_c")
+    scene = loaded(dma, text + asked)
+    with pytest.raises(InvalidInput) as refused:
+        scene.band(np.ones((1, scene.velocity.size)))
+    assert "[uncertainty] method" in str(refused.value)
