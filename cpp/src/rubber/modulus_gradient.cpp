@@ -24,6 +24,7 @@ using std::numbers::pi;
 namespace {
 
 constexpr double far = 0.7;                      // of u
+constexpr double settled = 1e-3;                 // of u, below which kernels are their limits
 constexpr double step = std::numbers::ln10 / 5;  // of ln w between the rows of a series
 constexpr double below = 1e-3;                   // of the lowest frequency, from where the lowest row stands for all
 constexpr double longest = 0.5;                  // in ln w, between breaks
@@ -175,9 +176,10 @@ ModulusGradient::Node ModulusGradient::node_at(const Rubber& rubber, double w, d
 
 /// What a node has in the integrals at w, `kernel` its weight there. With cos(phi) = w' / w it has cos(2 k phi) times
 /// as much in K_k as in I2, and cos((2 k + 1) phi) / cos(phi) times as much in L_k as in I1.
-void ModulusGradient::add_node(const Node& node, double w, double kernel, Index place) {
-  const Index n = i2_storage_.rows(), first = place * harmonics_ * n + node.first;
-  double *of_storage = i2_storage_.data() + first, *of_loss = i2_loss_.data() + first, *of_i1 = i1_loss_.data() + first;
+void ModulusGradient::add_node(const Node& node, double w, double kernel, Stretch& to, Index place) const {
+  const Index n = to.i2_storage.rows(), first = place * harmonics_ * n + node.first - to.window;
+  double *of_storage = to.i2_storage.data() + first, *of_loss = to.i2_loss.data() + first,
+         *of_i1 = to.i1_loss.data() + first;
   const double u = node.w / w, twice = 2 * (2 * u * u - 1), linear = node.loss > 0 ? 4 * kernel * u / node.loss : 0;
   double even = 1, even_before = twice / 2, odd = 1, odd_before = 1;
   for (Index k = 0; k < harmonics_; ++k, of_storage += n, of_loss += n, of_i1 += n) {
@@ -196,44 +198,56 @@ void ModulusGradient::take_integrals() {
   const std::optional<Rubber> unlimited = asperity::unlimited(rubber_);
   const Rubber& rubber = unlimited ? *unlimited : rubber_;
   const double lowest = breaks_.front();
-  const auto n = static_cast<Index>(rows_.size()),
-             columns = static_cast<Index>(stretches_.size()) * places * harmonics_;
-  for (auto* const matrix : {&i2_storage_, &i2_loss_, &i1_loss_}) matrix->setZero(n, columns);
   // nodes in ln w' that serve all w far above them; those of the tail in w'
   const LegendreRule &rule = legendre_rule(4), &fine = legendre_rule(8);
   std::vector<Node> nodes;
   std::vector<std::size_t> first;  // of each stretch, those of the tail before
-  for (std::size_t j = 0; j < fine.n; ++j)
+  const auto add_far = [](Stretch& stretch, const Node& node) {
+    stretch.far.col(0) += 8 * node.weight * node.storage_square;
+    stretch.far.col(1) += 8 * node.weight * node.loss_square;
+    if (node.loss > 0) stretch.far.col(2) += 4 * node.weight * node.w / node.loss * node.loss_square;
+  };
+  for (std::size_t j = 0; j < fine.n; ++j) {
     nodes.push_back(node_at(rubber, lowest * (1 + fine.node[j]) / 2, lowest * fine.weight[j] / 2));
-  for (const Stretch& stretch : stretches_) {
+    add_far(stretches_.front(), nodes.back());
+  }
+  for (Stretch& stretch : stretches_) {
     first.push_back(nodes.size());
     const double half = std::log(stretch.high / stretch.low) / 2;
     for (std::size_t j = 0; j < rule.n; ++j) {
       const double w = stretch.low * std::exp(half * (1 + rule.node[j]));
       nodes.push_back(node_at(rubber, w, half * rule.weight[j] * w));
+      add_far(stretch, nodes.back());
     }
   }
-  for (std::size_t i = 0; i < stretches_.size(); ++i)
-    for (int p = 0; p < places; ++p) {
-      const double s = lagrange.place()[static_cast<std::size_t>(p)];
-      const double w = stretches_[i].low * std::pow(stretches_[i].high / stretches_[i].low, s * s);
-      const Index place = static_cast<Index>(i) * places + p;
-      std::size_t near = 0;  // the first stretch that reaches beyond `far`
+  for (std::size_t i = 0; i < stretches_.size(); ++i) {
+    Stretch& stretch = stretches_[i];
+    while (stretches_[stretch.near].high <= settled * stretch.low) ++stretch.near;
+    stretch.window = stretches_[stretch.near].first;
+    for (auto* const matrix : {&stretch.i2_storage, &stretch.i2_loss, &stretch.i1_loss})
+      matrix->setZero(stretch.first + stretch.count - stretch.window, places * harmonics_);
+    for (Index place = 0; place < places; ++place) {
+      const double s = lagrange.place()[static_cast<std::size_t>(place)];
+      const double w = stretch.low * std::pow(stretch.high / stretch.low, s * s);
+      stretch.inverse_w[static_cast<std::size_t>(place)] = 1 / w;
+      std::size_t near = stretch.near;  // the first stretch that reaches beyond `far`
       while (stretches_[near].high <= far * w) ++near;
-      for (std::size_t k = near == 0 && lowest > far * w ? fine.n : 0; k < first[near]; ++k) {
+      const bool tail_near = near == 0 && lowest > far * w;
+      for (std::size_t k = tail_near ? fine.n : stretch.near == 0 ? 0 : first[stretch.near]; k < first[near]; ++k) {
         const double u = nodes[k].w / w;
-        add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), place);
+        add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), stretch, place);
       }
       const auto add_near = [&](double low, double high) {
         const double from = std::acos(std::fmin(1, high / w)), half = (std::acos(low / w) - from) / 2;
         for (std::size_t j = 0; j < fine.n; ++j) {
           const double at = w * std::cos(from + half * (1 + fine.node[j]));
-          add_node(node_at(rubber, at, 0), w, half * fine.weight[j], place);
+          add_node(node_at(rubber, at, 0), w, half * fine.weight[j], stretch, place);
         }
       };
-      if (near == 0 && lowest > far * w) add_near(0, lowest);
+      if (tail_near) add_near(0, lowest);
       for (std::size_t k = near; k <= i; ++k) add_near(stretches_[k].low, std::fmin(stretches_[k].high, w));
     }
+  }
 }
 
 void IntegralSlopes::add(double at, double by_i1, double by_storage, double by_loss, const double* of_i1,
@@ -249,14 +263,18 @@ void IntegralSlopes::add(double at, double by_i1, double by_storage, double by_l
 }
 
 void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, VectorXd& loss) const {
-  VectorXd i1 = VectorXd::Zero(i1_loss_.cols()), of_storage = i1, of_loss = i1;
-  Index begin = i1.size(), end = 0;
-  std::size_t k = 0;
+  storage = loss = VectorXd::Zero(static_cast<Index>(rows_.size()));
+  if (of.w.empty()) return;
+  const auto [lowest, highest] = std::ranges::minmax(of.w);
+  const std::size_t begin = stretch_at(lowest), end = stretch_at(highest) + 1;
+  const Index columns = places * harmonics_;
+  VectorXd i1 = VectorXd::Zero(static_cast<Index>(end - begin) * columns), of_storage = i1, of_loss = i1;
+  std::size_t k = begin;
   for (std::size_t j = 0; j < of.w.size(); ++j) {
     const double at = of.w[j];
     if (at < breaks_[k] || (k + 1 < breaks_.size() && at >= breaks_[k + 1])) k = stretch_at(at);
     const std::array<double, 6> share = lagrange(std::sqrt(place(stretches_[k], of.log_w[j])));
-    const Index first = static_cast<Index>(k) * places * harmonics_;
+    const Index first = static_cast<Index>(k - begin) * columns;
     const double *const by_i1 = &of.i1[j * of.rows], *const by_storage = &of.storage[j * of.rows],
                         *const by_loss = &of.loss[j * of.rows];
     double *to_i1 = &i1[first], *to_storage = &of_storage[first], *to_loss = &of_loss[first];
@@ -270,14 +288,31 @@ void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, Ve
       to_storage += harmonics_;
       to_loss += harmonics_;
     }
-    begin = std::min(begin, first);
-    end = std::max(end, first + places * harmonics_);
   }
-  const Index n = std::max<Index>(end - begin, 0);
-  if (n == 0) begin = 0;
-  storage = i2_storage_.middleCols(begin, n) * of_storage.segment(begin, n);
-  loss =
-      i2_loss_.middleCols(begin, n) * of_loss.segment(begin, n) + i1_loss_.middleCols(begin, n) * i1.segment(begin, n);
+  // far above, cos(2 k phi) is (-1)^k, and cos((2 k + 1) phi) / cos(phi) that times 2 k + 1
+  std::vector<Eigen::Vector3d> settled_by(stretches_.size() + 1, Eigen::Vector3d::Zero());
+  for (std::size_t i = begin; i < end; ++i) {
+    const Stretch& stretch = stretches_[i];
+    const Index from = static_cast<Index>(i - begin) * columns, n = stretch.i2_storage.rows();
+    storage.segment(stretch.window, n).noalias() += stretch.i2_storage * of_storage.segment(from, columns);
+    loss.segment(stretch.window, n).noalias() += stretch.i2_loss * of_loss.segment(from, columns);
+    loss.segment(stretch.window, n).noalias() += stretch.i1_loss * i1.segment(from, columns);
+    Index column = from;
+    for (const double inverse : stretch.inverse_w)
+      for (Index h = 0; h < harmonics_; ++h, ++column) {
+        const double sign = h % 2 == 0 ? inverse : -inverse;
+        settled_by[stretch.near] += Eigen::Vector3d(sign * of_storage[column], sign * of_loss[column],
+                                                    sign * static_cast<double>(2 * h + 1) * inverse * i1[column]);
+      }
+  }
+  Eigen::Vector3d by = Eigen::Vector3d::Zero();
+  for (std::size_t i = end; i-- > 0;) {
+    by += settled_by[i + 1];
+    const Stretch& stretch = stretches_[i];
+    storage.segment(stretch.first, stretch.count) += (by[0] * stretch.far.col(0)).head(stretch.count);
+    loss.segment(stretch.first, stretch.count) +=
+        (by[1] * stretch.far.col(1) + by[2] * stretch.far.col(2)).head(stretch.count);
+  }
 }
 
 void ModulusGradient::add_at(double w, double by_storage, double by_loss, VectorXd& storage, VectorXd& loss) const {

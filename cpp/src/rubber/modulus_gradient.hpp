@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -42,6 +43,14 @@ class ModulusGradient {
     Eigen::Index first, count;
     double log_low = 0, per_length = 0;  // 1 / ln(high / low)
     Eigen::Matrix<double, most_rows, 4> storage = decltype(storage)::Zero(), loss = decltype(loss)::Zero();
+    std::array<double, places> inverse_w{};
+    // d I2 / d ln E', d I2 / d ln E'' and d I1 / d ln E'' at its places: a row a row from `window` on, a column a
+    // harmonic of a place, but for what the stretches before `near` have, which is far below
+    std::size_t near = 0;
+    Eigen::Index window = 0;
+    Eigen::MatrixXd i2_storage, i2_loss, i1_loss;
+    // what it has itself in those of w far above, times w, w and w^2
+    Eigen::Matrix<double, most_rows, 3> far = decltype(far)::Zero();
   };
   /// A frequency of a rule: its weight, and what E'^2 and E''^2, E'' have there for each of the rows.
   struct Node {
@@ -54,15 +63,13 @@ class ModulusGradient {
   void take_rows(const MasterCurve& curve);
   void take_integrals();
   [[nodiscard]] Node node_at(const Rubber& rubber, double w, double weight) const;
-  void add_node(const Node& node, double w, double kernel, Eigen::Index place);
+  void add_node(const Node& node, double w, double kernel, Stretch& to, Eigen::Index place) const;
   [[nodiscard]] std::size_t stretch_at(double w) const;
 
   const Rubber& rubber_;
   std::vector<double> rows_, breaks_;
   std::vector<Stretch> stretches_;
   Eigen::Index harmonics_;  // I1 and I2 among them
-  // d I2 / d ln E', d I2 / d ln E'' and d I1 / d ln E'': a row a row of the modulus, a column a harmonic of a place
-  Eigen::MatrixXd i2_storage_, i2_loss_, i1_loss_;
 };
 
 }  // namespace asperity
