@@ -168,20 +168,18 @@ HeatKernel::HeatKernel(const Heating& heating, double velocity)
 
 HeatKernel::Place HeatKernel::at(double wavenumber) const {
   const double x = 2 * wavenumber * length_;
-  const HeatFunctions f = heat_functions(residence_, x);
-  return {x, f.n / x, f.q};
+  return {x, heat_functions(residence_, x).n / x};
 }
 
-// N / x falls with the slope -Q / x^2: where x and y are near, the difference is the mean of that between them.
+// N / x falls with the slope -Q / x^2: where x and y are near, the difference is the mean of that between them, by
+// Gauss's rule of three nodes.
 double HeatKernel::operator()(const Place& felt, const Place& heated) const {
   const double x = felt.x, y = heated.x, sum = x + y, apart = y - x;
   if (std::fabs(apart) > near * sum) return time_ * x * x * y * ((felt.psi - heated.psi) / (apart * sum));
-  if (apart == 0) return time_ / 2 * felt.q;
-  const LegendreRule& rule = legendre_rule(4);
   double mean = 0;
-  for (std::size_t i = 0; i < rule.n; ++i) {
-    const double z = sum / 2 + apart / 2 * rule.node[i];
-    mean += rule.weight[i] / 2 * heat_functions(residence_, z).q / (z * z);
+  for (const double side : {-1.0, 0.0, 1.0}) {
+    const double z = sum / 2 + side * std::sqrt(0.15) * apart;
+    mean += (side == 0 ? 8.0 : 5.0) / 18 * heat_functions(residence_, z).q / (z * z);
   }
   return time_ * x * x * y / sum * mean;
 }
@@ -222,7 +220,8 @@ void HeatKernelTable::fill(const Heating& heating, double velocity, Eigen::Matri
         kernel.time() * kernel.length() * factor_.col(j).array() * (psi_felt_.array() - psi_heated_[j]);
   for (const auto& [i, j] : near_) {
     const double q = felt_[static_cast<std::size_t>(i)], heated = heated_[static_cast<std::size_t>(j)];
-    table(i, j) = heated * kernel(kernel.at(q), kernel.at(heated));
+    const double doubled = 2 * kernel.length();
+    table(i, j) = heated * kernel({doubled * q, psi_felt_[i]}, {doubled * heated, psi_heated_[j]});
   }
 }
 

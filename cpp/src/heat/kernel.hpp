@@ -28,7 +28,7 @@ class HeatKernel {
 
   /// A wavenumber as the kernel sees it.
   struct Place {
-    double x, psi, q;  // 2 q l, N(x) / x, Q(x)
+    double x, psi;  // 2 q l, N(x) / x
   };
   [[nodiscard]] Place at(double wavenumber) const;
   /// g [s].
