@@ -32,13 +32,8 @@ def hertz_penetration(*, force: float, effective_modulus: float, radius: float) 
     radius : float
         R [m], positive.
     """
-    return float(
-        _core.hertz_penetration(
-            number(force, "force"),
-            number(effective_modulus, "effective_modulus"),
-            number(radius, "radius"),
-        )
-    )
+    given = {"force": force, "effective_modulus": effective_modulus, "radius": radius}
+    return float(_core.hertz_penetration(*(number(one, name) for name, one in given.items())))
 
 
 @value

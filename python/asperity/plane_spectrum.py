@@ -114,9 +114,7 @@ class Anisotropy(Table):
     def _columns(self) -> Columns:
         numbers = self._arguments() | {"ratio": self.ratio}
         units = {name: "rad" if name == "direction" else "1" for name in numbers}
-        return Columns(
-            {}, {name: Column((), entry, units[name]) for name, entry in numbers.items()}
-        )
+        return Columns({}, {name: Column((), x, units[name]) for name, x in numbers.items()})
 
     def _draw(self, axes: Any) -> None:
         angle = np.linspace(-90, 90, 361)

@@ -146,23 +146,12 @@ class StrainSweep(Table, CoreValue):
     loss_modulus: Vector
 
     def _columns(self) -> Columns:
-        return modulus_columns(
-            self,
-            "strain",
-            "1",
-            temperature=self.temperature,
-            angular_frequency=self.angular_frequency,
-        )
+        at = {"temperature": self.temperature, "angular_frequency": self.angular_frequency}
+        return modulus_columns(self, "strain", "1", **at)
 
     def _draw(self, axes: Any) -> None:
-        draw_moduli(
-            axes,
-            self.strain,
-            self.storage_modulus,
-            self.loss_modulus,
-            label="Strain amplitude [-]",
-            styles=("o-", "^:"),
-        )
+        moduli = self.storage_modulus, self.loss_modulus
+        draw_moduli(axes, self.strain, *moduli, label="Strain amplitude [-]", styles=("o-", "^:"))
         axes.set_title(f"{self.temperature:.4g} K, {self.angular_frequency:.3g} rad/s")
 
 

@@ -297,11 +297,8 @@ class FrictionMap(Table):
         """Return s0 [m], as `Friction.sliding_length` at a middle pressure; None without heat."""
         if self.temperature is None:
             choice(outside, "outside", POLICIES)
-            self._check(
-                {"velocity": velocity}
-                | ({} if temperature is None else {"temperature": temperature}),
-                False,
-            )
+            asked = {"velocity": velocity, "temperature": temperature}
+            self._check({key: one for key, one in asked.items() if one is not None}, False)
             real_array(velocity, "velocity")
             return None
         middle = {"pressure": self.pressure[0], "velocity": velocity, "a_T": 1.0}
@@ -341,12 +338,8 @@ class FrictionMap(Table):
         if self.temperature is None:
             if "temperature" in asked:
                 result = brief(asked["temperature"])
-                raise refusal(
-                    "temperature",
-                    result,
-                    "left out, this map has no heat; give a_T",
-                    text=f"{result}",
-                )
+                allowed = "left out, this map has no heat; give a_T"
+                raise refusal("temperature", result, allowed, text=f"{result}")
             return
         if shifts:
             raise refusal("shift_adhesion", "True", "False on a map with heat", text="True")

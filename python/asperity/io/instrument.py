@@ -64,6 +64,12 @@ def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> H
         return LineScan(heights, spacing=pixel_size)
 
 
+def left_out(name: str, given: Any, source: str = "file") -> None:
+    """Refuse an argument that what is read states itself."""
+    if given is not None:
+        raise refusal(name, given, f"left out, the {source} states its own", text=f"{given!r}")
+
+
 def check_channel(channel: int, available: int) -> None:
     if not (isinstance(channel, int | np.integer) and 0 <= channel < available):
         allowed = "0, the only one" if available == 1 else f"in 0..{available - 1}"
@@ -175,8 +181,8 @@ def read_container(path: Path, channel: int, unit: str | None) -> HeightMap | Li
             gc.collect()  # the library leaves files open, in circles of references
     if topography.unit is None and unit is None:
         raise InvalidInput(Argument("unit"), " is missing: the file does not state it")
-    if topography.unit is not None and unit is not None:
-        raise refusal("unit", unit, "left out, the file states its own", text=f"{unit!r}")
+    if topography.unit is not None:
+        left_out("unit", unit)
     return of_topography(topography, None if unit is None else METRES[unit], None)
 
 
@@ -192,11 +198,10 @@ def _read_channel(
         ("unit", unit, info.unit),
         ("pixel_size", pixel_size, None if pixel_size and _coarse(info) else info.physical_sizes),
     ):
-        if argument is None and stated is None:
+        if stated is not None:
+            left_out(name, argument)
+        elif argument is None:
             raise InvalidInput(Argument(name), " is missing: the file does not state it")
-        if argument is not None and stated is not None:
-            raise refusal(name, argument, "left out, the file states its own", text=f"{argument!r}")
-
     unsized = info.physical_sizes is None  # SurfaceTopography wants some size
     sizes = {"physical_sizes": info.nb_grid_pts} if unsized else {}
     topography = reader.topography(channel_index=channel, **sizes)

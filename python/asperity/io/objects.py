@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, must_be, refusal
+from asperity.base.diagnostics import Argument, must_be
 from asperity.io.instrument import (
     METRES,
     PixelSize,
     check_equal_distances,
     checked_unit,
+    left_out,
     of_topography,
 )
 from asperity.io.instrument import surface_of as made
@@ -23,11 +24,7 @@ from asperity.surface import HeightMap, LineScan
 
 def is_frame(candidate: Any) -> bool:
     """Whether it is a table of columns, as pandas has them."""
-    return (
-        hasattr(candidate, "columns")
-        and hasattr(candidate, "to_numpy")
-        and hasattr(candidate, "iloc")
-    )
+    return all(hasattr(candidate, name) for name in ("columns", "to_numpy", "iloc"))
 
 
 def frame_of(candidate: Any) -> Any:
@@ -49,10 +46,10 @@ def surface_from(
     `pixel_size` [m] and `unit` are those that the object does not state.
     """
     if callable(getattr(candidate, "heights", None)) and hasattr(candidate, "physical_sizes"):
-        _left_out("pixel_size", pixel_size)
+        left_out("pixel_size", pixel_size, "object")
         stated = getattr(candidate, "unit", None)
         if stated is not None:
-            _left_out("unit", unit)
+            left_out("unit", unit, "object")
         elif unit is None:
             raise InvalidInput(Argument("unit"), " is missing: the topography has none")
         return of_topography(candidate, None if unit is None else METRES[unit], None)
@@ -60,24 +57,17 @@ def surface_from(
         maps = [one for one in candidate.data_vars.values() if one.ndim in (1, 2)]
         if len(maps) == 1 and maps[0].dims[-1] == "x":
             return _of_xarray(maps[0], pixel_size, unit)
-    elif (
-        hasattr(candidate, "dims") and hasattr(candidate, "coords") and hasattr(candidate, "attrs")
-    ):
+    elif all(hasattr(candidate, name) for name in ("dims", "coords", "attrs")):
         return _of_xarray(candidate, pixel_size, unit)
     elif is_frame(candidate):
         return _of_frame(candidate, pixel_size, unit)
     return None
 
 
-def _left_out(name: str, value: Any) -> None:
-    if value is not None:
-        raise refusal(name, value, "left out, the object states its own", text=f"{value!r}")
-
-
 def _of_xarray(array: Any, pixel_size: PixelSize | None, unit: str | None) -> HeightMap | LineScan:
     stated = array.attrs.get("units")
     if stated is not None:
-        _left_out("unit", unit)
+        left_out("unit", unit, "object")
     of_heights = stated or unit
     if of_heights is None:
         raise InvalidInput(Argument("unit"), ' is missing: attrs have no "units" of the heights')
@@ -91,7 +81,7 @@ def _of_xarray(array: Any, pixel_size: PixelSize | None, unit: str | None) -> He
         length = checked_unit(places.attrs.get("units", of_heights))
         steps.append(float(places[-1] - places[0]) / (places.size - 1) * METRES[length])
     if None not in steps:
-        _left_out("pixel_size", pixel_size)
+        left_out("pixel_size", pixel_size, "object")
         sizes: Any = steps  # numbers all
         pixel_size = sizes[0] if len(sizes) == 1 else tuple(sizes)
     elif pixel_size is None:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import MUST_BE, Argument, must_be, refusal
-from asperity.io.instrument import METRES, PixelSize, check_equal_distances, surface_of
+from asperity.io.instrument import METRES, PixelSize, check_equal_distances, left_out, surface_of
 from asperity.surface import HeightMap, LineScan
 
 FEWEST = 10  # rows of 2 or 3 numbers that are no map: no spectrum is that of so narrow a one
@@ -44,8 +44,8 @@ def surface_at(
     """
     stated = _stated(names, matrix.shape[1])
     for name, argument, known in (("unit", unit, stated[1]), ("pixel_size", pixel_size, stated[0])):
-        if argument is not None and known is not None:
-            raise refusal(name, argument, "left out, the file states its own", text=f"{argument!r}")
+        if known is not None:
+            left_out(name, argument)
     unit = unit or stated[1]
     if unit is None:
         problem = " is missing: rows of positions and heights do not state it"

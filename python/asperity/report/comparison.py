@@ -36,9 +36,7 @@ class Difference:
 
     @property
     def percent(self) -> str:
-        if self.first == 0:
-            return "-"
-        return percent_text(100 * (self.second / self.first - 1), "+")
+        return percent_text(100 * (self.second / self.first - 1), "+") if self.first else "-"
 
 
 @dataclass(frozen=True)

@@ -182,15 +182,9 @@ def source_rows(sources: Sequence[Source], folder: Path | None) -> list[tuple[st
 
 def pair_texts(pair: Pair) -> dict[str, Any]:
     """A comparison, its points as cells."""
+    numbers = ("pressure", "velocity", "first", "second")
     rows = [
-        (
-            number_text(one.pressure),
-            number_text(one.velocity),
-            number_text(one.first),
-            number_text(one.second),
-            one.percent,
-            VERDICTS[one.verdict],
-        )
+        (*(number_text(getattr(one, name)) for name in numbers), one.percent, VERDICTS[one.verdict])
         for one in pair.differences
     ]
     shown, left_out = thinned(rows)

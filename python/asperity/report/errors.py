@@ -10,12 +10,9 @@ from asperity.scene.model import Scene, SceneFriction
 
 _POINTS = [[*COLUMNS].index(name) for name in ("points_y", "points_x")]
 _PARTS = {
-    said: [*COLUMNS].index(name)
-    for said, name in (
-        ("between them", "interpolation"),
-        ("by their points", "pixels"),
-        ("by having one scan", "scan"),
-    )
+    "between them": "interpolation",
+    "by their points": "pixels",
+    "by having one scan": "scan",
 }
 
 
@@ -33,12 +30,8 @@ def errors_of(scene: Scene, result: SceneFriction) -> list[Told]:
 
 
 def _numerical(scene: Scene, result: SceneFriction) -> Told:
-    share = np.divide(
-        result.error_estimate,
-        result.mu,
-        out=np.zeros_like(result.mu),
-        where=result.mu > 0,
-    )
+    mu = result.mu
+    share = np.divide(result.error_estimate, mu, out=np.zeros_like(mu), where=mu > 0)
     rtol = scene.inputs["solver"]["rtol"]
     size = f"at most {float(share.max()):.2g} of mu"
     return Told("the numbers", size, f"estimated by the solver, which was asked for {rtol:.2g}")
@@ -90,6 +83,7 @@ def _of_model(scene: Scene, result: SceneFriction) -> Told:
     if not isinstance(scene.correction, ScanContact):
         return Told("the model", size, "seen in exact sliding contacts of the same regime")
     rows = scene.correction.contacts.rows
-    known_of = {name: rows[np.isfinite(rows[:, i]), i].max(initial=0) for name, i in _PARTS.items()}
-    parts = ", ".join(f"{name} {percent_text(100 * float(x))}" for name, x in known_of.items())
+    columns = {said: rows[:, [*COLUMNS].index(name)] for said, name in _PARTS.items()}
+    worst = {said: np.max(x, where=np.isfinite(x), initial=0) for said, x in columns.items()}
+    parts = ", ".join(f"{said} {percent_text(100 * float(x))}" for said, x in worst.items())
     return Told("the model", size, f"of {len(rows)} exact contacts of the scan, at most: {parts}")

@@ -66,13 +66,8 @@ class HeightStatistics(Table):
 
     def _columns(self) -> Columns:
         units = {"mean": "m", "rms_height": "m", "z_max": "m", "z_min": "m"}
-        return Columns(
-            {},
-            {
-                name: Column((), entry, units.get(name, "1"))
-                for name, entry in self._arguments().items()
-            },
-        )
+        known = self._arguments().items()
+        return Columns({}, {name: Column((), x, units.get(name, "1")) for name, x in known})
 
     def _draw(self, axes: Any) -> None:
         axes.axhspan(-self.rms_height, self.rms_height, alpha=0.3, label="± rms height")
