@@ -121,8 +121,8 @@ class ContactGrid {
   void add_pieces(const RoughnessPieces& pieces);
   void add_beyond();
   void add_macro_nodes(std::span<const Segment> surface);
-  void add_macro_harmonics(const std::vector<double>& wavenumber, const std::vector<double>& weight,
-                           const NodeRule& nodes);
+  void add_macro_harmonics(const std::vector<double>& x, const std::vector<double>& wavenumber,
+                           const std::vector<double>& weight, const NodeRule& nodes);
   /// q on a panel at t, and dG / du at I2 = 1, u from -1 to 1 over 2 `half` of t.
   struct OnPanel {
     double wavenumber, roughness;

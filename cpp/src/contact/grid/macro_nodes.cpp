@@ -33,7 +33,8 @@ void ContactGrid::add_macro_nodes(std::span<const Segment> surface) {
   }
   ends.push_back(end);
   macro_weights_.resize(wavenumber_.size());
-  const LegendreRule& rule = legendre_rule(8);
+  const LegendreRule &usual = legendre_rule(8), &of_short = legendre_rule(2);
+  constexpr double is_short = 0.003;  // in ln q, over which two nodes are exact to 1e-13: rows of an ellipse's roll-off
   std::size_t index = 0;
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
     const double lower = ends[k], upper = ends[k + 1];
@@ -45,6 +46,7 @@ void ContactGrid::add_macro_nodes(std::span<const Segment> surface) {
                    to = std::fmin(std::log(segment.b), upper);
       if (from >= upper) break;
       if (!(to > from)) continue;
+      const LegendreRule& rule = options_.rings && to - from < is_short ? of_short : usual;
       const double steps = std::ceil(std::fmax(1, (to - from) * (4 + std::fabs(segment.slope)) / 4));
       for (double step = 0; step < steps; ++step)
         for (std::size_t j = 0; j < rule.n; ++j) {
@@ -64,25 +66,24 @@ void ContactGrid::add_macro_nodes(std::span<const Segment> surface) {
       macro_weights_.push_back(g_factor_ * nodes.weight[j]);
     }
     if (!options_.rings) continue;
-    for (double& at : x) at = std::exp((lower + upper + at * (upper - lower)) / 2);
-    add_macro_harmonics(x, weight, nodes);
+    std::vector<double> wavenumber;
+    for (const double at : x) wavenumber.push_back(std::exp((lower + upper + at * (upper - lower)) / 2));
+    add_macro_harmonics(x, wavenumber, weight, nodes);
   }
 }
 
 /// Those with which the rule is exact for polynomials of ln q times the harmonics of the rings that it stands for.
-void ContactGrid::add_macro_harmonics(const std::vector<double>& wavenumber, const std::vector<double>& weight,
-                                      const NodeRule& nodes) {
+void ContactGrid::add_macro_harmonics(const std::vector<double>& x, const std::vector<double>& wavenumber,
+                                      const std::vector<double>& weight, const NodeRule& nodes) {
   const TabulatedSpectrum& table = *options_.rings;
-  const std::size_t count = table.harmonics().count, n = nodes.x.size(), first = wavenumber_.size() - n;
+  const std::size_t count = table.harmonics().count, n = nodes.x.size();
   std::vector<double> cosine(n * count), sine(n * count);
   for (std::size_t k = 0; k < wavenumber.size(); ++k) {
     const HarmonicsAt at(table, wavenumber[k]);
     for (std::size_t j = 0; j < n; ++j) {
       double part = weight[k] / nodes.weight[j];
       for (std::size_t i = 0; i < n; ++i)
-        if (i != j)
-          part *= std::log(wavenumber[k] / wavenumber_[first + i]) /
-                  std::log(wavenumber_[first + j] / wavenumber_[first + i]);
+        if (i != j) part *= (x[k] - nodes.x[i]) / (nodes.x[j] - nodes.x[i]);
       for (std::size_t m = 0; m < count; ++m) {
         cosine[j * count + m] += part * at.cosine(m);
         sine[j * count + m] += part * at.sine(m);
