@@ -34,6 +34,7 @@ struct GradientScene {
   const std::vector<double>& rows;  // of C [1/m]
   const ModulusGradient& modulus;
   const std::optional<SeriesSlopes>& terms;  // of a series
+  std::vector<double> of_top = {};  // d ln of a law's C at the roll-off or at k = q0 over its numbers, with directions
 };
 
 /// Slopes of ln p_T over ln of the pressure and of what it has of the roughness; over the modulus it has that over the
@@ -107,5 +108,7 @@ class GradientChain {
 
 /// The numbers of a law by their names, in the order of the slopes.
 std::vector<std::string> law_arguments(const SelfAffineSpectrum& law);
+/// Of a law that knows directions, at a kept rms height.
+std::vector<double> slopes_of_top(const SelfAffineSpectrum& law);
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 
 #include "friction/gradient_chain.hpp"
 #include "spectrum/harmonics.hpp"
+#include "spectrum/self_affine.hpp"
 
 namespace asperity {
 
@@ -15,6 +16,30 @@ std::vector<std::string> law_arguments(const SelfAffineSpectrum& law) {
   std::vector<std::string> result{"rms_height", "hurst", "q0", "q1"};
   if (law.rolloff) result.emplace_back("rolloff");
   if (law.axis_ratio != 1) result.insert(result.end(), {"axis_ratio", "lay"});
+  return result;
+}
+
+namespace {
+
+constexpr double law_step = 1e-4;
+
+/// The law with one of its numbers, in the order of its slopes, times a factor.
+SelfAffineSpectrum changed_law(const SelfAffineSpectrum& law, std::size_t number, double factor) {
+  SelfAffineSpectrum result = law;
+  (number == 1 ? result.hurst : number == 4 && law.rolloff ? *result.rolloff : result.axis_ratio) *= factor;
+  return result;
+}
+
+}  // namespace
+
+std::vector<double> slopes_of_top(const SelfAffineSpectrum& law) {
+  std::vector<double> result(law_arguments(law).size());
+  const auto top = [&](std::size_t number, double factor) {
+    const SelfAffineSpectrum of = changed_law(law, number, factor);
+    return std::log(density_at_rolloff(of) / (of.rolloff ? 1 : mean_of_shape(of)));
+  };
+  for (std::size_t k = 1; k + 1 < result.size(); ++k)
+    if (k != 2 && k != 3) result[k] = (top(k, 1 + law_step) - top(k, 1 - law_step)) / (2 * law_step);
   return result;
 }
 
@@ -38,7 +63,7 @@ void GradientChain::take_law() {
 /// By differences of the shape, at a kept rms height. Nodes of q_m stand for a stretch, as in RoughnessRows; edges have
 /// no rings of their own, but those of the band.
 void GradientChain::take_directional_law() {
-  constexpr double step = 1e-4;
+  constexpr double step = law_step;
   constexpr int parts = 32;  // of a stretch
   const SelfAffineSpectrum& law = *scene_.law;
   const auto count = static_cast<Index>(scene_.harmonics) + 1, n = static_cast<Index>(grid_.size()),
@@ -63,15 +88,11 @@ void GradientChain::take_directional_law() {
     return rows;
   };
   const auto here = rows_of(law);
-  VectorXd height = grid_.weight().cwiseQuotient(VectorXd::Map(q.data(), band).cwiseAbs2());
-  height /= height.sum();
-  const auto add = [&](auto change) {
-    SelfAffineSpectrum less = law, more = law;
-    change(less, 1 - step);
-    change(more, 1 + step);
-    const auto lower = rows_of(less), upper = rows_of(more);
+  const auto add = [&] {
+    const std::size_t number = law_rings_.size();
+    const auto lower = rows_of(changed_law(law, number, 1 - step)), upper = rows_of(changed_law(law, number, 1 + step));
     VectorXd log_c = (upper.col(0).array() / lower.col(0).array()).log() / (2 * step);
-    log_c.array() -= height.dot(log_c.head(band));
+    log_c.array() += scene_.of_top[law_rings_.size()];
     VectorXd of_c = VectorXd::Zero(n);
     Eigen::MatrixXd of_rings = Eigen::MatrixXd::Zero(n, count);
     of_c.head(band) = log_c.head(band);
@@ -109,11 +130,11 @@ void GradientChain::take_directional_law() {
   };
   const double at_q1 = law.q1 * law.q1 * density(law, law.q1) / (law.rms_height * law.rms_height);
   add_every(2);
-  add([](SelfAffineSpectrum& s, double by) { s.hurst *= by; });
+  add();
   add_every(0);
   add_every(-2 * std::numbers::pi * at_q1);
-  if (law.rolloff) add([](SelfAffineSpectrum& s, double by) { *s.rolloff *= by; });
-  add([](SelfAffineSpectrum& s, double by) { s.axis_ratio *= by; });
+  if (law.rolloff) add();
+  add();
 }
 
 /// The slope over q0 follows from all others, as mu does not change with the unit of length. Both theory and p_T keep

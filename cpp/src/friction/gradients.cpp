@@ -111,6 +111,7 @@ class Table {
         of_rows_(weights_of(rows_)),
         of_modulus_(weights_of(modulus_.angular_frequency())) {
     if (scene_.law) add(law_arguments(*scene_.law));
+    if (scene_.law && harmonics_ > 0) scene_.of_top = slopes_of_top(*scene_.law);
     if (harmonics_ > 0) add({"direction"});
     if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
       terms_.emplace(*series, lowest_, highest_, harmonics_);
