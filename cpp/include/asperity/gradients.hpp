@@ -49,8 +49,8 @@ ASPERITY_EXPORT Gradients gradients(const Spectrum& spectrum, const Rubber& rubb
                                     std::span<const double> pressure, std::span<const double> velocity,
                                     std::span<const double> temperature, unsigned threads = 1);
 
-/// The same with the heat that friction makes: T(q) follows. With ScanContact, which is solved at each T(q), slopes over
-/// p, v and T are differences of such contacts, and all others hold the ratio of mu to that of PartialContact.
+/// The same with the heat that friction makes: T(q) follows. With ScanContact, which is solved at each T(q), slopes
+/// over p, v and T are differences of such contacts, and all others hold the ratio of mu to that of PartialContact.
 ASPERITY_EXPORT Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
                                     const Heating& heating, const ContactModel& model,
                                     const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
