@@ -32,10 +32,14 @@ struct Heating {
 
 ASPERITY_EXPORT void validate(const Heating& heating);
 
-/// g(q, q') [s] at pairs of wavenumbers [1/m], with a velocity [m/s] for each: heat of density f(q') exp(-2 q' z) dq'
-/// per rho c_v [K/s], steady since a spot came into contact, makes the temperature rise g f dq' as roughness q feels
-/// it.
+/// g(q, q') [s] at pairs of wavenumbers [1/m], of one velocity [m/s] or one for each pair: heat of density f(q') exp(-2
+/// q' z) dq' per rho c_v [K/s], steady since a spot came into contact, makes the temperature rise g f dq' as roughness
+/// q feels it.
 ASPERITY_EXPORT std::vector<double> heat_kernel(std::span<const double> q, std::span<const double> q_prime,
                                                 std::span<const double> velocity, const Heating& heating);
+inline std::vector<double> heat_kernel(std::span<const double> q, std::span<const double> q_prime, double velocity,
+                                       const Heating& heating) {
+  return heat_kernel(q, q_prime, std::vector<double>(q.size(), velocity), heating);
+}
 
 }  // namespace asperity

@@ -143,7 +143,7 @@ class Table {
   void put(std::size_t i, const PointGradient& coarse, const PointGradient& fine) {
     const auto density = [&](const VectorXd& of, const VectorXd& weights, std::vector<double>& to) {
       const auto n = static_cast<std::size_t>(weights.size());
-      VectorXd::Map(&to[i * n], weights.size()) = of.cwiseQuotient(weights);
+      VectorXd::Map(to.data() + i * n, weights.size()) = of.cwiseQuotient(weights);
     };
     density(fine.spectrum, of_rows_, g_.spectrum);
     density(fine.storage, of_modulus_, g_.storage);
@@ -152,7 +152,7 @@ class Table {
     g_.velocity[i] = fine.velocity;
     if (!g_.temperature.empty()) g_.temperature[i] = fine.temperature;
     for (std::size_t k = 0; k < g_.arguments.size(); ++k)
-      std::ranges::copy(fine.arguments[k], &g_.arguments[k].values[i * g_.arguments[k].count]);
+      std::ranges::copy(fine.arguments[k], g_.arguments[k].values.data() + i * g_.arguments[k].count);
     const double whole = fine.spectrum.cwiseAbs().sum() + fine.loss.cwiseAbs().sum();
     g_.error_estimate[i] = of_change * apart(coarse, fine) + least_error * whole;
   }

@@ -6,8 +6,8 @@
 
 #include "numerics/arguments.hpp"
 #include "spectrum/harmonics.hpp"
-#include "spectrum/segments.hpp"
 #include "spectrum/roughness_window.hpp"
+#include "spectrum/segments.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
