@@ -5,7 +5,7 @@
 
 #include "friction/gradient_chain.hpp"
 #include "spectrum/harmonics.hpp"
-#include "spectrum/self_affine.hpp"
+#include "spectrum/segments.hpp"
 
 namespace asperity {
 
