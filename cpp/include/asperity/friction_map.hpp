@@ -1332,7 +1332,7 @@ struct Head {
   [[nodiscard]] bool heat_fits(const FrictionMapInfo& info, Part part) const noexcept {
     const auto [lo, hi] = info.temperature;
     constexpr double half_turn = 3.141592653589793;
-    const int maps = part == Part::across ? 0 : (info.heat ? 1 : 0) + (info.directional ? 1 : 0);
+    const unsigned maps = part == Part::across ? 0u : (info.heat ? 1u : 0u) + (info.directional ? 1u : 0u);
     if (inside % 8 != 0 || (maps == 0 ? inside > 0 : inside < maps * (head_size + 8ull))) return false;
     if (part == Part::across ? info.directional : part == Part::cold && info.turns) return false;
     if (!info.heat)

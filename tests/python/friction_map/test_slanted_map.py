@@ -15,11 +15,11 @@ SERIES = asperity.PronySeries(
     relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
 )
 LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
-RANGE = (292.15, 296.15)
-# ln a_T goes over 0.8: the first box is longer than that in ln v, the second shorter
+RANGE = (288.15, 298.15)
+# ln a_T goes over 2.0: the first box is longer than that in ln v, the second shorter
 BOXES = {
-    "wide": {"pressure": (1e5, 3e5), "velocity": (1.5, 4.0)},
-    "narrow": {"pressure": (1e5, 3e5), "velocity": (2.5, 4.0)},
+    "wide": {"pressure": (1e5, 3e5), "velocity": (0.3, 4.0)},
+    "narrow": {"pressure": (1e5, 3e5), "velocity": (1.5, 4.0)},
 }
 GIVEN = {
     "shift": LAW,
@@ -45,7 +45,7 @@ CURVE = curve()
 @pytest.fixture(scope="module", params=BOXES)
 def result(request):
     return friction_map(
-        ROAD, CURVE, temperature=RANGE, **BOXES[request.param], **GIVEN, rtol=1e-3, checked=500
+        ROAD, CURVE, temperature=RANGE, **BOXES[request.param], **GIVEN, rtol=1e-3, checked=1000
     )
 
 
@@ -65,12 +65,12 @@ def points(result, count, seed=1):
 
 def test_it_is_as_good_as_it_says_to_the_corners_of_the_box(result):
     assert 0 < result.max_error <= result.rtol
-    assert (result.checked, result.exceeded) == (500, 0)
+    assert (result.checked, result.exceeded) == (1000, 0)
     assert result.to_bytes()[152] == 3
     assert asperity.FrictionMap.from_bytes(result.to_bytes()) == result
     at = points(result, 200)
     truth = friction(ROAD, CURVE, **at, **GIVEN, rtol=1e-7)
-    assert np.ptp(np.log(truth.mu / truth.cold.mu)) > 0.3  # heat has its say
+    assert np.ptp(np.log(truth.mu / truth.cold.mu)) > 0.5  # heat has its say
     for part in PARTS:
         exact = getattr(truth, part)
         np.testing.assert_array_less(
@@ -109,7 +109,7 @@ def test_outside_is_held_at_the_box(result):
     beyond = result.mu(2e5, 2 * v, temperature=400.0, outside="clamp")
     assert beyond == pytest.approx(result.mu(2e5, v, temperature=RANGE[1]), rel=1e-14)
     with pytest.raises(asperity.OutOfRange, match=r"velocity = .*the map covers"):
-        result.mu(2e5, 2 * v, temperature=294.0)
+        result.mu(2e5, 2 * v, temperature=290.0)
 
 
 @pytest.mark.parametrize(
