@@ -48,7 +48,7 @@ class ModulusGradient {
     // harmonic of a place, but for what the stretches before `near` have, which is far below
     std::size_t near = 0;
     Eigen::Index window = 0;
-    Eigen::MatrixXd i2_storage, i2_loss, i1_loss;
+    Eigen::MatrixXd i2_storage{}, i2_loss{}, i1_loss{};
     // what it has itself in those of w far above, times w, w and w^2
     Eigen::Matrix<double, most_rows, 3> far = decltype(far)::Zero();
   };
