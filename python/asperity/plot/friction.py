@@ -11,7 +11,6 @@ from asperity.base.arguments import known
 from asperity.draw.directions import DIRECTION
 from asperity.draw.figure import PRESSURE, legend, new_figure, picture, pressure_text
 from asperity.draw.friction import (
-    TEMPERATURE,
     Curve,
     abscissa_of,
     band_text,
@@ -35,7 +34,7 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[SceneFriction], p
     the rise that each roughness feels."""
     files = [scene.path for scene in scenes]
     abscissa = abscissa_of(results, temperatures=all(files.count(one) > 1 for one in files))
-    names = _files(scenes) if abscissa in (TEMPERATURE, DIRECTION) else _names(scenes)
+    names = _files(scenes)
     celsius = all(scene.in_celsius for scene in scenes)
     given = [scene.temperature for scene in scenes]
     curves = list(curves_of(results, names, abscissa, given, celsius=celsius))
@@ -115,13 +114,6 @@ def _files(scenes: Sequence[Scene]) -> list[str]:
         return [""] * len(scenes)
     short = len({path.name for path in paths}) == len(paths)
     return [_plain(scene.path.name if short else f"{scene.path}") for scene in scenes]
-
-
-def _names(scenes: Sequence[Scene]) -> list[str]:
-    """What tells scenes apart: their files, and places in the lists of one that has several."""
-    paths = [scene.path for scene in scenes]
-    at = [s.place_text if paths.count(s.path) > 1 else "" for s in scenes]
-    return [", ".join(filter(None, one)) for one in zip(_files(scenes), at, strict=True)]
 
 
 def _plain(name: str) -> str:

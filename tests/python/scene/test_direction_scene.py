@@ -103,6 +103,23 @@ def test_a_line_scan_has_no_directions(tmp_path: Path) -> None:
         load_scene(written(tmp_path, surface + RUBBER + CONDITIONS))
 
 
+def test_directions_over_velocity_are_one_entry_each(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("matplotlib")
+    from asperity.plot import friction
+
+    drawn: list[Any] = []
+    monkeypatch.setattr(friction, "picture", lambda figure, path: drawn.append(figure))
+    over = "[conditions]\npressure_pa = 2e5\nvelocity_m_s = [1e-3, 1e-2, 1e-1]\n"
+    path = written(tmp_path, RIDGES + RUBBER + over + "direction_deg = [0, 60]\n")
+    scene = load_scene(path, for_friction=True)
+    scenes = [scene, *scene.others]
+    friction.friction_figure(scenes, [one.friction() for one in scenes], tmp_path / "mu.svg")
+    texts = [text.get_text() for text in drawn[0].axes[0].get_legend().get_texts()]
+    assert texts[:3] == ["200 kPa", "0°", "60°"]
+
+
 def test_a_list_of_directions_is_a_table_and_a_polar_picture(tmp_path: Path) -> None:
     pytest.importorskip("matplotlib")
     around = CONDITIONS + "direction_deg = {from = 0, to = 90, points = 4}\n"
