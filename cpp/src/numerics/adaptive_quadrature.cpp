@@ -54,8 +54,8 @@ Integral integrate_smooth(const Integrand& f, double lower, double upper) {
   for (std::size_t i = 0; i < rule.n; ++i) {
     const double value = f(middle + half * rule.node[i]);
     sum += rule.weight[i] * value;
-    last += rule.tail[i][0] * value;
-    before += rule.tail[i][1] * value;
+    last += rule.last[i][0] * value;
+    before += rule.last[i][1] * value;
   }
   return {half * sum, std::fabs(half) * (std::fabs(last) + std::fabs(before))};
 }

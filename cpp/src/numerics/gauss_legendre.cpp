@@ -24,15 +24,15 @@ Polynomials legendre(std::size_t n, Real x) {
   return p;
 }
 
-/// Integrals from -1 to the nodes of (1 + x)^power P_k, by the rule itself on each of the intervals.
-std::vector<Polynomials> integrals_from_root(std::size_t n, const Real* node, const Real* weight, int power) {
+/// Integrals from -1 to the nodes of (1 + x) P_k, by the rule itself on each of the intervals.
+std::vector<Polynomials> integrals_from_root(std::size_t n, const Real* node, const Real* weight) {
   std::vector<Polynomials> result(n, Polynomials{});
   for (std::size_t i = 0; i < n; ++i) {
     const Real half = (node[i] + 1) / 2;
     for (std::size_t l = 0; l < n; ++l) {
       const Real from_lower = half * (node[l] + 1);
       const Polynomials p = legendre(n, from_lower - 1);
-      const Real part = half * weight[l] * std::pow(from_lower, power);
+      const Real part = half * weight[l] * from_lower;
       for (std::size_t k = 0; k < n; ++k) result[i][k] += part * p[k];
     }
   }
@@ -63,10 +63,9 @@ LegendreRule make_rule(std::size_t n) {
       integral[i][k] = (p[i][k + 1] - p[i][k - 1]) / (2 * d + 1);
     }
   }
-  const auto linear = integrals_from_root(n, node.data(), weight.data(), 1);
-  const auto cubic = integrals_from_root(n, node.data(), weight.data(), 3);
+  const auto linear = integrals_from_root(n, node.data(), weight.data());
   for (std::size_t j = 0; j < n; ++j) {
-    std::array<Real, LegendreRule::most> cumulative{}, from_linear{}, from_cubic{}, change{};
+    std::array<Real, LegendreRule::most> cumulative{}, from_linear{}, change{};
     Real lower = 0, upper = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const Real coefficient = (static_cast<Real>(k) + 0.5L) * weight[j] * p[j][k];
@@ -75,22 +74,15 @@ LegendreRule make_rule(std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) {
         cumulative[i] += coefficient * integral[i][k];
         from_linear[i] += coefficient * linear[i][k];
-        from_cubic[i] += coefficient * cubic[i][k];
         change[i] += coefficient * slope[i][k];
       }
-      if (k == n / 2 || k + 1 == n / 2) r.tail[j][LegendreRule::tails + n / 2 - k] = static_cast<double>(coefficient);
-      const std::size_t from_last = n - 1 - k;
-      if (from_last >= LegendreRule::tails) continue;
-      r.tail[j][from_last] = static_cast<double>(coefficient);
-      r.tail_integral[j][from_last] = static_cast<double>(integral[j][k]);
-      r.tail_slope[j][from_last] = static_cast<double>(weight[j] * slope[j][k]);
+      if (k + 2 >= n) r.last[j][n - 1 - k] = static_cast<double>(coefficient);
     }
     r.at_lower[j] = static_cast<double>(lower);
     r.at_upper[j] = static_cast<double>(upper);
     for (std::size_t i = 0; i < n; ++i) {
       r.cumulative[j][i] = static_cast<double>(cumulative[i]);
       r.cumulative_linear[j][i] = static_cast<double>(from_linear[i] / (1 + node[j]));
-      r.cumulative_cubic[j][i] = static_cast<double>(from_cubic[i] / std::pow(1 + node[j], 3));
       r.slope[j][i] = static_cast<double>(weight[i] * change[i]);
     }
   }

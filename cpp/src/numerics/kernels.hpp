@@ -18,18 +18,11 @@ struct PronyTerms {
   double equilibrium;
 };
 
-/// With z = sqrt(G), rest = 1 / (1 + z):
-///   F  = z^2 rest U, F = int P S dG,    F2 = z^4 rest V, F2 = int F dG
-/// U and V are smooth in rest on [0, 1]: polynomials in u = `steps` rest - i about each i = 0 ... steps.
+/// With z = sqrt(G), rest = 1 / (1 + z), F = int P S dG is z^2 rest U, with U smooth in rest on [0, 1]: polynomials in
+/// u = `steps` rest - i about each i = 0 ... steps.
 struct ContactTable {
   static constexpr std::size_t steps = 128, terms = 8;
-  using Powers = double[steps + 1][terms];
-  Powers first, second;  // U and V
-};
-
-/// The contribution of a panel: sum of `slope` f, and the last coefficients of f.
-struct PanelSums {
-  double value, tail[LegendreRule::kept];
+  double powers[steps + 1][terms];
 };
 
 struct Kernels {
@@ -41,29 +34,8 @@ struct Kernels {
   /// The same with L_1 to L_count and K_1 to K_count (AngularHarmonics of asperity/rubber.hpp), a row of n each.
   void (*prony_harmonics)(const PronyTerms& terms, const double* w, std::size_t n, std::size_t count, double* i1,
                           double* i2, double* loss, double* square);
-  /// Integral of the polynomial through f, and its last coefficients.
-  void (*add_up)(const LegendreRule& rule, const double* f, double* total, double* tail);
-  /// Integral of the polynomial through f, to each node by `columns` of the rule and over all, and its last
-  /// coefficients.
-  void (*integrate)(const LegendreRule& rule, const double (*columns)[LegendreRule::most], const double* f,
-                    double* cumulative, double* total, double* tail);
-  /// Weight times derivative of the polynomial through f, its ends, and its last coefficients.
-  void (*differentiate)(const LegendreRule& rule, const double* f, double* slope, double* lower, double* upper,
-                        double* tail);
-  /// G at n nodes: that at the lower end and `cumulative`, at unit load, times `scale`; 1e-300 where it would be 0. An
-  /// interpolated G may be below 0 at the first nodes and stays so: its errors there are polynomials of high degree,
-  /// which cancel in the sums over a panel. (All that passes from one loop to another is written by loops of one
-  /// width.)
-  void (*g_at_nodes)(double lower, const double* cumulative, double scale, std::size_t n, double* g);
-  /// F, and F2 where there is room for it, at n values of G, n a multiple of `lanes`. Below 0 they go on as they begin,
-  /// with F = G and F2 = G^2 / 2.
-  void (*contact_integral)(const ContactTable& table, const double* g, std::size_t n, double* f, double* f2);
-  /// A panel's part of the sum that its value is taken from, and the coefficients that tell the error of it.
-  void (*sum)(const LegendreRule& rule, const double* slope, const double* f, PanelSums& sums);
-  /// How much the last coefficients of dG and of R matter, F / G being a bound of P S. Takes f_lower from f: a constant
-  /// falls out of all sums, and takes its rounding along.
-  void (*error_projection)(const LegendreRule& rule, const double* slope, const double* g, double f_lower, double* f,
-                           double* by_g, double* by_r);
+  /// F at n values of G, n a multiple of `lanes`. Below 0 it goes on as it begins, with F = G.
+  void (*contact_integral)(const ContactTable& table, const double* g, std::size_t n, double* f);
 };
 
 /// Those of this machine's vector units, or the lesser ones that the environment names: ASPERITY_VECTORS=baseline.

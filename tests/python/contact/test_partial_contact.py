@@ -228,3 +228,15 @@ def test_what_faint_rows_beyond_the_roughness_add_is_as_small_as_they_are(share)
     most = 20 * ((long.rms_slope / short.rms_slope) ** 2 - 1) + 2e-6
     np.testing.assert_allclose(two.mu, one.mu, rtol=most)
     np.testing.assert_allclose(two.contact_area, one.contact_area, rtol=most)
+
+
+def test_rows_far_below_the_rounding_of_what_is_before_them():
+    """c falls by 23 decades and comes back by 11, which is next to nothing."""
+    q = 529 * np.array([1, 2.28, 21.4])
+    whole = asperity.TabulatedSpectrum(wavenumber=q, density=[2.6e-13, 4.8e-38, 5.1e-26])
+    front = asperity.TabulatedSpectrum(wavenumber=q[:2], density=whole.density[:2])
+    mu = [
+        asperity.friction(one, RUBBER, pressure=1e5, velocity=1.0, correction=RULE).mu
+        for one in (whole, front)
+    ]
+    assert mu[0] == pytest.approx(mu[1], rel=1e-5)

@@ -25,9 +25,6 @@ RUBBER = asperity.PronySeries(
 def test_the_error_estimate_is_kept_on_random_scenes():
     outcomes = [random_scenes.compute(7, scene, tables=0.05) for scene in range(300)]
     assert [i for i, outcome in enumerate(outcomes) if not outcome.kept] == []
-    told = [one for one in outcomes if one.error > one.truth_estimate > 0]
-    # 191 here, 205 on four thousand, and the median of so few is good to a quarter
-    assert np.median([one.estimate / one.error for one in told]) < 255
 
 
 def test_the_error_estimate_is_kept_on_fronts_of_every_shape():

@@ -13,6 +13,7 @@ namespace asperity {
 namespace {
 
 constexpr double same = 1e-12;  // relative distance of two wavenumbers that are one
+constexpr double cut = 1.0 / 16;
 
 /// Where the pieces of a stretch end. With a kink at its lower end, and another one `before` it by so much, the first
 /// is cut at quarters down to that: kinks that nearly meet are like a step.
@@ -37,7 +38,8 @@ ContactGrid::ContactGrid(std::span<const Segment> surface, const ContactGridOpti
   g_factor_ = stiffening * stiffening / 8;
   std::size_t first = 0;
   while (first + 1 < surface.size() && surface[first].at_a == 0 && surface[first].at_b == 0) ++first;
-  start_ = std::log(surface[first].a);
+  foot_ = surface[first].a;
+  start_ = std::log(foot_);
   if (options_.pieces)
     add_pieces(*options_.pieces);
   else
@@ -66,7 +68,7 @@ void ContactGrid::add_panels(std::span<const Segment> surface) {
       if (*stop > ends.back() * (1 + same) && *stop < segment.b * (1 - same)) ends.push_back(*stop);
     ends.push_back(segment.b);
     for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-      const double lower = std::fmax(std::log(ends[i]) - start_, 0), upper = std::log(ends[i + 1]) - start_;
+      const double lower = distance(ends[i]), upper = distance(ends[i + 1]);
       const double pieces =
           pieces_for(upper - lower, longest, options_.tabulated ? 0 : options_.level, options_.tabulated) *
           std::exp2(options_.halvings);
@@ -74,7 +76,7 @@ void ContactGrid::add_panels(std::span<const Segment> surface) {
       for (const double to : ends_of_pieces(lower, upper, pieces, before)) {
         const double end = to == upper ? ends[i + 1] : std::exp(start_ + to);
         if (from == 0)
-          add_front(segment, std::sqrt(to), end);
+          add_front(segment, to, end);
         else
           add_after(surface, segment, from, to, end);
         from = to;
@@ -88,27 +90,26 @@ void ContactGrid::add_panels(std::span<const Segment> surface) {
       for (std::size_t i = cell.first; i < cell.first + cell.count; ++i) macro_weights_[i] = weights_[i];
 }
 
-/// The panel that begins where G is 0, cut in t at a quarter once more from level to level, so that two levels tell a
-/// front that is thinner than their nodes apart.
+/// The panel that begins where G is 0, from level to level cut once more, so that two levels tell a front that is
+/// thinner than their nodes apart.
 void ContactGrid::add_front(const Segment& segment, double upper, double end) {
   const std::size_t cuts = options_.level > 1 ? options_.level - 1 : 0;
-  const std::size_t n =
-      std::min(nodes_for(upper * upper, options_.level, true, options_.tabulated), LegendreRule::most);
+  const std::size_t n = nodes_for(upper, options_.level, true, options_.tabulated);
   double lower = 0;
   for (std::size_t k = cuts; k > 0; --k) {
-    const double to = upper * std::pow(0.25, static_cast<double>(k));
-    add_panel(segment, lower, to, std::exp(start_ + to * to), n);
+    const double to = upper * std::pow(cut, static_cast<double>(k));
+    add_panel(segment, 0, lower, to, std::exp(start_ + to), n);
     lower = to;
   }
-  add_panel(segment, lower, upper, end, n);
+  add_panel(segment, 0, lower, upper, end, n);
 }
 
 /// A panel further on, in y = ln q. Where the roughness of its beginning is far above all that came before, that is
 /// where the contact breaks up: it is cut like a front, down to what came before.
 void ContactGrid::add_after(std::span<const Segment> surface, const Segment& segment, double from, double to,
                             double end) {
-  constexpr double cut = 1.0 / 16, far = 100;
-  const double before = roughness_before_.back(), first = start_ - std::log(segment.a);
+  constexpr double far = 100;
+  const double before = roughness_before_.back(), first = -distance(segment.a);
   const auto roughness_to = [&](double y) {  // about, from the panel's beginning
     const double middle = (from + y) / 2, q = std::exp(start_ + middle);
     return g_factor_ * (q * q) * (q * q) * segment.density_at(std::fmax(first + middle, 0)) * (y - from);
@@ -119,32 +120,44 @@ void ContactGrid::add_after(std::span<const Segment> surface, const Segment& seg
   const bool cut_up = ends.size() > 1;
   std::size_t n = nodes_for(to - from, options_.tabulated && !cut_up ? 0 : options_.level, cut_up, options_.tabulated);
   if (!options_.tabulated && !options_.kinks_at_stops && !cut_up) {
-    const auto unit = std::ranges::partition_point(cells_, [&](const Cell& c) { return c.upper * c.upper < from - 1; });
+    const auto unit = std::ranges::partition_point(cells_, [&](const Cell& c) { return distance(c.end) < from - 1; });
     const double whole_before = roughness_before_[static_cast<std::size_t>(unit - cells_.begin())];
     const PanelPlace place{segment, start_ + from, start_ + to, (before - whole_before) / g_factor_};
     n = std::min(n, most_for(to - from, singularity(place, surface, options_.window)));
   }
+  // G as good as begins where the roughness jumps: the root is of the distance from where it would be 0
+  const double q = std::exp(start_ + from), square = q * q;
+  const double rate = g_factor_ * square * square * segment.density_at(std::fmax(first + from, 0));
+  const double origin = before < rate * (to - from) ? from - before / rate : 0;
   double lower = from;
   for (std::size_t k = ends.size(); k-- > 0; lower = ends[k])
-    add_panel(segment, std::sqrt(lower), std::sqrt(ends[k]), k == 0 ? end : std::exp(start_ + ends[k]),
-              std::min(n, LegendreRule::most));
+    add_panel(segment, origin, lower, ends[k], k == 0 ? end : std::exp(start_ + ends[k]), n);
 }
 
-ContactGrid::OnPanel ContactGrid::on_panel(const Segment& segment, double t, double half) const {
-  const double q = std::exp(start_ + t * t);
-  const double s = std::clamp(start_ - std::log(segment.a) + t * t, 0.0, segment.length());
+ContactGrid::OnPanel ContactGrid::on_panel(const Segment& segment, double origin, double t, double half) const {
+  const double y = origin + t * t, q = std::exp(start_ + y);
+  const double s = std::clamp(y - distance(segment.a), 0.0, segment.length());
   return {q, g_factor_ * (q * q) * (q * q) * segment.density_at(s) * (half * 2 * t)};
 }
 
-void ContactGrid::add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes) {
+void ContactGrid::add_panel(const Segment& segment, double origin, double from, double to, double end,
+                            std::size_t nodes) {
+  if (nodes > LegendreRule::most) {  // halves, so that each level has other nodes than the one before
+    const double middle = (from + to) / 2;
+    const std::size_t of_half = std::min(nodes - LegendreRule::most / 2, LegendreRule::most);
+    add_panel(segment, origin, from, middle, std::exp(start_ + middle), of_half);
+    add_panel(segment, origin, middle, to, end, of_half);
+    return;
+  }
+  const double lower = std::sqrt(from - origin), upper = std::sqrt(to - origin);
   const LegendreRule& rule = legendre_rule(nodes);
   const auto n = static_cast<Eigen::Index>(rule.n);
-  Cell cell{wavenumber_.size(), rule.n, &rule, lower, upper, end, &segment, Eigen::MatrixXd(n, n)};
+  Cell cell{wavenumber_.size(), rule.n, &rule, origin, lower, upper, end, &segment, Eigen::MatrixXd(n, n)};
   const double half = (upper - lower) / 2;
   const auto& columns = lower == 0 ? rule.cumulative_linear : rule.cumulative;
   double sum = roughness_before_.back();
   for (std::size_t j = 0; j < rule.n; ++j) {
-    const auto [q, roughness] = on_panel(segment, lower + half * (1 + rule.node[j]), half);
+    const auto [q, roughness] = on_panel(segment, origin, lower + half * (1 + rule.node[j]), half);
     wavenumber_.push_back(q);
     weights_.push_back(roughness * rule.weight[j]);
     sum += weights_.back();
@@ -160,7 +173,7 @@ void ContactGrid::add_pieces(const RoughnessPieces& pieces) {
   wavenumber_ = nodes.wavenumber;
   for (const double weight : nodes.weight) weights_.push_back(g_factor_ * weight);
   for (std::size_t i = 0; i < nodes.wavenumber.size(); i += 2)
-    cells_.push_back({i, 2, nullptr, 0, 0, end_of_band_, nullptr, {}});
+    cells_.push_back({i, 2, nullptr, 0, 0, 0, end_of_band_, nullptr, {}});
 }
 
 void ContactGrid::integrate(const Eigen::VectorXd& i2, Eigen::VectorXd& at_nodes, std::vector<double>& at_ends) const {
@@ -305,7 +318,7 @@ void ContactGrid::lay_edges(const std::optional<double>& held_from) {
 ContactGrid::Place ContactGrid::place_of(double wavenumber) const {
   const auto above = std::ranges::lower_bound(cells_, wavenumber, {}, &Cell::end);
   const Cell& cell = above == cells_.end() ? cells_.back() : *above;
-  const double t = std::clamp(std::sqrt(std::fmax(std::log(wavenumber) - start_, 0)), cell.lower, cell.upper);
+  const double t = std::clamp(std::sqrt(std::fmax(distance(wavenumber) - cell.origin, 0)), cell.lower, cell.upper);
   const bool inside = wavenumber >= cell.segment->a && wavenumber <= cell.segment->b;  // not in an empty bin
   const double square = wavenumber * wavenumber;
   return {static_cast<std::size_t>(&cell - cells_.data()), wavenumber, t,
@@ -318,7 +331,7 @@ void ContactGrid::nodes_to(const Place& place, std::vector<double>& wavenumber, 
   wavenumber.resize(cell.count);
   weight.resize(cell.count);
   for (std::size_t j = 0; j < cell.count; ++j) {
-    const OnPanel at = on_panel(*cell.segment, cell.lower + half * (1 + cell.rule->node[j]), half);
+    const OnPanel at = on_panel(*cell.segment, cell.origin, cell.lower + half * (1 + cell.rule->node[j]), half);
     wavenumber[j] = at.wavenumber;
     weight[j] = at.roughness * cell.rule->weight[j];
   }
@@ -330,7 +343,11 @@ std::vector<ContactGrid::PanelSum> ContactGrid::sums_of_panels(const Eigen::Vect
     result.push_back(
         {lower, upper, part.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count)).sum()});
   };
-  for (const Cell& cell : cells_) add(wavenumber_at(cell.lower), cell.end, cell.first, cell.count);
+  double lower = foot_;
+  for (const Cell& cell : cells_) {
+    add(lower, cell.end, cell.first, cell.count);
+    lower = cell.end;
+  }
   std::size_t first = beyond_.first;
   for (std::size_t i = 0; i < beyond_.panel_nodes.size(); first += beyond_.panel_nodes[i++])
     add(beyond_.ends[i], beyond_.ends[i + 1], first, beyond_.panel_nodes[i]);

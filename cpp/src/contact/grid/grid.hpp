@@ -31,16 +31,18 @@ struct ContactGridOptions {
   const TabulatedSpectrum* rings = nullptr;        // with pieces, whose harmonics the nodes of q_m have
 };
 
-/// Nodes in ln q. The cells of the band are Gauss-Legendre panels in t = sqrt(ln(q / q0)), in which the square root
-/// that F(G) has behind the front is smooth, or pieces of rings with two nodes each. Behind the nodes of the band
-/// follow those of the edges of contacts, from the end of the roughness on, and those that G at q_m is taken from.
+/// Nodes in ln q. The cells of the band are Gauss-Legendre panels in t, the root of the distance of ln q from where G
+/// begins, in which the square root that F(G) has behind the front is smooth, or pieces of rings with two nodes each.
+/// Behind the nodes of the band follow those of the edges of contacts, from the end of the roughness on, and those that
+/// G at q_m is taken from.
 class ContactGrid {
  public:
   static constexpr int first_digits = 4;  // of level 0
   struct Cell {
     std::size_t first, count;  // of its nodes
     const LegendreRule* rule;  // none on a piece
-    double lower, upper;       // of a panel, in t
+    double origin;             // of a panel, where t is 0: ln(q / q0) = origin + t^2
+    double lower, upper;       // in t
     double end;                // q at its upper end [1/m]
     const Segment* segment;
     Eigen::MatrixXd to_g;  // of a panel: from I2 at the nodes to G there at unit load, less that at the lower end
@@ -79,8 +81,9 @@ class ContactGrid {
   /// ln q of both ends of all nodes, those of the edges among them.
   [[nodiscard]] double lowest() const { return lowest_; }
   [[nodiscard]] double highest() const { return highest_; }
-  /// q at t.
-  [[nodiscard]] double wavenumber_at(double t) const { return std::exp(start_ + t * t); }
+  [[nodiscard]] double foot() const { return foot_; }  // q where the roughness begins [1/m]
+  /// ln q above the foot, with all digits of it on narrow bands.
+  [[nodiscard]] double distance(double q) const { return std::log1p(std::fmax(q - foot_, 0) / foot_); }
   /// Where in the panels a wavenumber of the band is.
   struct Place {
     std::size_t cell;
@@ -117,7 +120,7 @@ class ContactGrid {
   void add_panels(std::span<const Segment> surface);
   void add_front(const Segment& segment, double upper, double end);
   void add_after(std::span<const Segment> surface, const Segment& segment, double from, double to, double end);
-  void add_panel(const Segment& segment, double lower, double upper, double end, std::size_t nodes);
+  void add_panel(const Segment& segment, double origin, double from, double to, double end, std::size_t nodes);
   void add_pieces(const RoughnessPieces& pieces);
   void add_beyond();
   void add_macro_nodes(std::span<const Segment> surface);
@@ -127,10 +130,10 @@ class ContactGrid {
   struct OnPanel {
     double wavenumber, roughness;
   };
-  [[nodiscard]] OnPanel on_panel(const Segment& segment, double t, double half) const;
+  [[nodiscard]] OnPanel on_panel(const Segment& segment, double origin, double t, double half) const;
 
   ContactGridOptions options_;
-  double g_factor_, start_;  // ln q where the roughness begins
+  double g_factor_, foot_, start_;  // where the roughness begins, and ln q there
   double lowest_, highest_;
   double end_of_band_;  // [1/m]
   std::size_t band_size_ = 0;

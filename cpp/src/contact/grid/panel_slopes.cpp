@@ -22,13 +22,13 @@ void add_panel(const LegendreRule& rule, const double* f, double lower, double u
 
 }  // namespace
 
-PanelSlopes::PanelSlopes(const ContactGrid& grid) : grid_(grid), wavenumber_{grid.wavenumber_at(0)} {
+PanelSlopes::PanelSlopes(const ContactGrid& grid) : grid_(grid), wavenumber_{grid.foot()} {
   if (grid.pieces()) {
     const std::vector<double>& q = grid.wavenumber();
     for (std::size_t i = 0; i < grid.pieces()->nodes().end.size(); ++i)
       wavenumber_.insert(wavenumber_.end(), {std::sqrt(q[2 * i] * q[2 * i + 1]), grid.pieces()->nodes().end[i]});
   } else {
-    for (const ContactGrid::Cell& cell : grid.cells()) wavenumber_.push_back(grid.wavenumber_at(cell.upper));
+    for (const ContactGrid::Cell& cell : grid.cells()) wavenumber_.push_back(cell.end);
   }
   if (!grid.beyond().end) return;
   wavenumber_.insert(wavenumber_.end(), grid.beyond().ends.begin(), grid.beyond().ends.end());
@@ -50,7 +50,7 @@ void PanelSlopes::operator()(std::span<const double> at_nodes, std::span<const d
     for (const ContactGrid::Cell& cell : grid_.cells()) {
       add_panel(*cell.rule, &at_nodes[cell.first], end[0], end[1], &slope[cell.first]);
       const double half = (cell.upper - cell.lower) / 2;
-      for (std::size_t j = 0; j < cell.count; ++j)  // ln q is t^2
+      for (std::size_t j = 0; j < cell.count; ++j)  // dln q is that of t^2
         slope[cell.first + j] /= half * 2 * (cell.lower + half * (1 + cell.rule->node[j]));
       ++end;
     }

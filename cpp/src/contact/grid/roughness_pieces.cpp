@@ -44,6 +44,7 @@ constexpr double longest = 0.12, beside_foot = 0.25;
 constexpr double growth = 0.3, least_growth = 0.05;
 constexpr double most_turned = 40;  // of ln c, beside which nothing of c is left
 constexpr double steepest = 1.5;    // |d ln c / dy| times the length of an atom
+constexpr double rounding = 1e-14;  // of differences of integrals from the beginning on
 
 }  // namespace
 
@@ -143,7 +144,8 @@ bool RoughnessPieces::short_enough(double lower, double upper, std::size_t level
   const double finer = std::pow(0.5, static_cast<double>(level)), most = longest * finer;
   if (upper - lower > (lower < beside_foot ? (2 * std::sqrt(lower) + most) * most : most)) return false;
   // where I2 rises steeply, what lies further back than a unit has little part in G
-  const double m = m_at(lower), before = m - (lower > 1 ? m_at(lower - 1) : 0), beside = m_at(lower + 1) - m;
+  const double m = m_at(lower), beside = m_at(lower + 1) - m,
+               before = std::fmax(m - (lower > 1 ? m_at(lower - 1) : 0), rounding * m);
   const double root = std::sqrt(before);
   return std::sqrt(before + (m_at(upper) - m)) - root <=
          finer * std::fmax(growth * root, least_growth * std::sqrt(beside));
@@ -272,9 +274,11 @@ bool RoughnessPieces::smooth(const Points& p, std::size_t level) const {
   if (!(of.deviation > 0)) return false;
   const double m = (p.m_lower + p.m_upper) / 2, window = p.window[p.window.size() / 2];
   const auto [least, largest] = std::ranges::minmax(p.window);
-  if (largest - least > growth * std::pow(0.5, static_cast<double>(level)) * window) return false;
-  const double most = roughest(level);
-  return rest(of, p.y, p.weight, p.m) <= most * m * m && rest(of, p.y, p.weight, p.window) <= most * window * window;
+  const double most = roughest(level), change = largest - least;
+  if (rest(of, p.y, p.weight, p.m) > most * m * m) return false;
+  return change <= rounding * window_.total() ||
+         (change <= growth * std::pow(0.5, static_cast<double>(level)) * window &&
+          rest(of, p.y, p.weight, p.window) <= most * window * window);
 }
 
 void RoughnessPieces::add_piece(const Points& p, double upper) {

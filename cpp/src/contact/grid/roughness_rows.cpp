@@ -28,8 +28,11 @@ RoughnessRows::RoughnessRows(std::span<const Segment> surface, bool of_table, co
     }
     for (const ContactGrid::Stretch& stretch : grid.macro_stretches()) add_stretch(grid, stretch);
   } else {
-    for (const ContactGrid::Cell& cell : grid.cells())
-      add_stretch(grid, {cell.first, cell.count, grid.wavenumber_at(cell.lower), cell.end});
+    double from = grid.foot();
+    for (const ContactGrid::Cell& cell : grid.cells()) {
+      add_stretch(grid, {cell.first, cell.count, from, cell.end}, cell.origin);
+      from = cell.end;
+    }
   }
   first_.resize(grid.size() + 1, row_.size());
 }
@@ -47,12 +50,11 @@ RoughnessRows::Shares RoughnessRows::shares_at(double wavenumber) const {
   return {row, 1 - x, x};
 }
 
-void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch) {
+void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch, double origin) {
   first_.resize(stretch.first + 1, row_.size());
   const std::size_t n = stretch.count;
-  const double start = std::log(grid.wavenumber_at(0));
-  const auto place = [&](double q) {  // panels are of sqrt(ln q)
-    return grid.pieces() ? std::log(q) : std::sqrt(std::fmax(0, std::log(q) - start));
+  const auto place = [&](double q) {
+    return grid.pieces() ? std::log(q) : std::sqrt(std::fmax(0, grid.distance(q) - origin));
   };
   std::vector<double> node(n), scale(n, 1.0);
   for (std::size_t j = 0; j < n; ++j) node[j] = place(grid.wavenumber()[stretch.first + j]);

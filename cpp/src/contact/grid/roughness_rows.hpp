@@ -30,7 +30,8 @@ class RoughnessRows {
     double lower, upper;
   };
   [[nodiscard]] Shares shares_at(double wavenumber) const;
-  void add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch);
+  /// `origin` is that of a panel's cell.
+  void add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch, double origin = 0);
 
   std::span<const Segment> surface_;
   bool of_table_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
@@ -23,15 +24,14 @@ constexpr double for_edges = 0.02;  // of the tolerance
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
 constexpr double of_change = 0.75, of_rest = 2;
-constexpr double of_change_with_rings = 1;  // which scatter
-/// Of the tolerance: two levels may agree by chance, and one point in a hundred was off by half of the tolerance where
-/// they did.
-constexpr double least_error = 0.75;
-
-/// On panels the finer of two levels is off by two fifths of their difference at most, with PartialContact
-/// (tests/stability/random_partial_tables.py, 1,600 points at each rtol). Levels may agree by chance, so that of the
-/// tolerance something is taken at least, as with heat (heat/flash_solver.cpp).
-constexpr double least_on_panels = 1.0 / 30;
+constexpr double of_change_at_kinks = 1;  // which scatter, as directions do from ring to ring
+/// Two levels may agree by chance, so that of the tolerance something is taken at least: on pieces one point in a
+/// hundred was off by half of it where they did; on panels fronts make them agree by chance, which PartialContact does
+/// not have (tests/stability/random_partial_tables.py, random_scenes.py).
+constexpr double least_on_pieces = 0.75, least_on_panels = 0.5, least_without_front = 1.0 / 30;
+/// As one level more is two digits more, one that changes much less than that does so by chance.
+constexpr double of_change_before = 1.0 / 128;
+constexpr std::size_t levels_before_front = 3;
 constexpr std::size_t finest = 6;           // level of nodes of panels: more than doubles hold
 constexpr std::size_t finest_at_knots = 3;  // further levels halve panels
 constexpr std::size_t most_levels = 10;
@@ -62,12 +62,9 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surf
   }
   const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
   const bool many_rows = table && table->wavenumber().size() >= least_rows;
-  if ((many_rows || (options.panels && !analytic_)) && model.rtol >= least_rtol && !options.parts)
+  if ((many_rows || !analytic_) && model.rtol >= least_rtol && !options.parts)
     pieces_.resize(rings_of_ || waves.softening() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels);
-  if (!options.panels) return;
   panels_.resize(most_levels);
-  // differences of coarser grids are small by chance where a front is thin, which PartialContact does not have
-  first_level_ = window_ ? 0 : 1;
   constexpr double digits_a_level = 2;
   const double wanted = -std::log10(model.rtol) - 1 - ContactGrid::first_digits;
   while (first_level_ + 2 < finest + 1 && digits_a_level * static_cast<double>(first_level_ + 1) < wanted)
@@ -116,6 +113,34 @@ void LevelSolver::begin_panels() {
       level.factors = waves_.factors(*level.grid);
       level.rings = waves_.rings(*level.grid);
     }
+}
+
+/// Further stops where the contact breaks up, decade by decade of G on panels that G rises steeply on, for one point.
+void LevelSolver::end_panels_at_front() {
+  constexpr double steep = 100, lowest = 0.01;
+  std::vector<double> ends;
+  double before = 0, lower = surface_.front().a;
+  for (const ContactGrid::Cell& cell : solved_->grid->cells()) {
+    const double last = g(cell.end);
+    if (last > lowest && last > steep * before)
+      for (double at = std::fmax(lowest, std::pow(10, std::ceil(std::log10(std::fmax(before, lowest))))); at < last;
+           at *= 10) {
+        double from = 0, to = cell.end - lower;
+        for (int i = 0; i < 50; ++i) {
+          const double middle = from > 0 && to > 2 * from ? std::sqrt(from * to) : (from + to) / (from > 0 ? 2 : 64);
+          (g(lower + middle) < at ? from : to) = middle;
+        }
+        ends.push_back(lower + to);
+      }
+    before = last;
+    lower = cell.end;
+  }
+  if (ends.empty()) return;
+  stops_.insert(stops_.end(), ends.begin(), ends.end());
+  std::ranges::sort(stops_);
+  for (Level& level : panels_) level = {};
+  from_next_.reset();
+  panels_velocity_ = 0;  // the next point lays panels out anew
 }
 
 /// I1 and I2 at all nodes of a level from the modulus itself, those of the edges among them. Beyond the band the
@@ -172,6 +197,8 @@ void LevelSolver::lay_out(Levels& levels, std::size_t number) {
   level.factors = waves_.factors(*level.grid);
   level.rings = waves_.rings(*level.grid);
   level.theory = contact_theory(model_, spectrum_, surface_, *level.grid, waves_.directions());
+  const std::vector<double>& q = level.grid->wavenumber();
+  level.place = Eigen::Map<const VectorXd>(q.data(), static_cast<Index>(q.size())).array().log();
   if (number == 0) return;
   if (!levels[number - 1].grid) lay_out(levels, number - 1);
   take_common_ends(level, levels[number - 1]);
@@ -203,11 +230,11 @@ LevelSolver::Level& LevelSolver::at_velocity(Levels& levels, std::size_t number)
 
 /// Some of the cells up to whose ends the surface is the same on both levels: of panels by q, of pieces by m.
 void LevelSolver::take_common_ends(Level& fine, const Level& coarse) {
-  constexpr double same = 1e-9;
+  constexpr double same = 1e-12;
   constexpr std::size_t between = 16;  // nodes of the coarse one
   const std::vector<ContactGrid::Cell>&of_coarse = coarse.grid->cells(), &of_fine = fine.grid->cells();
   const auto end_of = [&](const ContactGrid& grid, const ContactGrid::Cell& cell, double& place) {
-    if (cell.rule) return place = cell.end;
+    if (cell.rule) return place = cell.end - grid.foot();  // as ends are beside each other at a front
     const auto first = static_cast<Index>(cell.first);
     return place += grid.weight()[first] + grid.weight()[first + 1];
   };
@@ -238,6 +265,13 @@ double LevelSolver::apart(const Level& coarse, const Level& fine) {
     most = std::fmax(most, std::fabs(off));
   }
   return most;
+}
+
+/// Where friction comes from, as a mean of ln q: two levels may agree in the whole by chance, but not in that too.
+double LevelSolver::mean_place(const Level& level) {
+  const VectorXd& part = level.theory->part();
+  const double whole = part.sum();
+  return part.size() == level.place.size() && whole > 0 ? part.dot(level.place) / whole : 0;
 }
 
 /// The share of friction from frequencies outside of the measured range.
@@ -276,19 +310,20 @@ double LevelSolver::share_beyond(double wavenumber) const {
   return std::fmin(1, sum / sums_.friction);
 }
 
-bool LevelSolver::solve(double pressure, double velocity, double shift) {
+void LevelSolver::solve(double pressure, double velocity, double shift) {
   begin(velocity);
   solved_ = nullptr;
-  if (!pieces_.empty() && solve_on(pieces_, pressure, shift)) return true;
-  if (panels_.empty()) return false;
+  if (!pieces_.empty() && solve_on(pieces_, pressure, shift)) return;
   begin_panels();
-  if (solve_on(panels_, pressure, shift)) return true;
+  if (solve_on(panels_, pressure, shift)) return;
+  if (!window_) end_panels_at_front();
+  if (solve_on(panels_, pressure, shift, true)) return;
   throw NotConverged("mu_H = " + show(hysteresis_.value) + " with relative error " + show(error_) + " on " +
-                     std::to_string(panels_.back().grid->size()) + " nodes where " + argument("rtol") + " = " +
+                     std::to_string(solved_->grid->size()) + " nodes where " + argument("rtol") + " = " +
                      show(model_.rtol) + " was asked for");
 }
 
-bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
+bool LevelSolver::solve_on(Levels& levels, double pressure, double shift, bool at_front) {
   const bool by_pieces = &levels == &pieces_;
   const double root = 1 / (pressure * shift);
   scale_ = root * root;
@@ -299,43 +334,56 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
   hysteresis_ = {};
   error_ = 0;
   if (g_ == 0) return !by_pieces;
+  solved_ = coarse;
   check_g(g_, pressure);
-  ContactSums before = coarse->theory->solve(scale_, model_.rtol, usual_kappa);
+  const bool friction = by_pieces || options_.hysteresis;
+  const auto solve_at = [&](const Level& level, double kappa) {
+    return friction ? level.theory->solve(scale_, model_.rtol, kappa) : ContactSums{};
+  };
+  ContactSums before = solve_at(*coarse, usual_kappa);
   double outside = by_pieces || kinks() ? outside_share(*coarse, before) : 0, across_before = across(*coarse, before);
   const double of_edges = window_ && by_pieces
                               ? std::fmax(edges_.i2_error / edges_.i2, edges_.i1 > 0 ? edges_.i1_error / edges_.i1 : 0)
                               : 0;
   const bool knots = kinks();
+  double change_before = 0;
   for (std::size_t number = 1; number < levels.size(); ++number) {
     if (number > 1) heed();
     const Level& level = at_velocity(levels, number);
-    const ContactSums& now = level.theory->solve(scale_, model_.rtol, before.kappa);
+    const ContactSums now = solve_at(level, before.kappa);
     const double running = apart(*coarse, level), whole = now.friction * scale_;
     const double change =
         std::max({difference(now.friction, before.friction), difference(now.share, before.share),
                   difference(level.theory->unit_g(), coarse->theory->unit_g()), difference(now.kappa, before.kappa),
                   std::fabs(now.slope - before.slope), std::fabs(now.friction_slope - before.friction_slope),
-                  whole > 0 ? running / whole : 0});
+                  by_pieces ? 0 : std::fabs(mean_place(level) - mean_place(*coarse)), whole > 0 ? running / whole : 0});
     const double lateral = across(level, now);
-    double error = of_change * change;
+    double error = (knots && !by_pieces && !window_ ? of_change_at_kinks : of_change) * change;
     if (rings_of_) {
       const double of_lateral = now.friction > 0 ? std::fabs(lateral - across_before) / now.friction : 0;
-      error = of_change_with_rings * std::fmax(change, of_lateral) + needed_.rest;
+      error = of_change_at_kinks * std::fmax(change, of_lateral) + needed_.rest;
       across_before = lateral;
     }
+    if (!by_pieces) error = std::fmax(error, of_change_before * std::exchange(change_before, change));
     if (by_pieces) {
       if (knots && error <= model_.rtol) error = std::fmax(error, beside_knots(level, now));
       error += of_rest * RoughnessPieces::roughest(number) + of_edges;
     }
     if (!analytic_ || (number == 1 && !by_pieces && !kinks())) outside = outside_share(level, now);
     before = now;
-    coarse = &level;
+    coarse = solved_ = &level;
     hysteresis_.value = mu_factor_ * now.friction;
     error_ = error;
     if (!(error <= 0.85 * model_.rtol)) continue;
+    const double misfit = !by_pieces && now.friction > 0 ? level.theory->front_misfit() / now.friction : 0;
+    if (!(misfit <= model_.rtol)) {
+      if (number == levels_before_front && !at_front) return false;
+      continue;
+    }
     sums_ = now;
     g_ = level.theory->unit_g() * scale_;
-    error_ = std::fmax(error, (by_pieces ? least_error : least_on_panels) * model_.rtol);
+    const double least = by_pieces ? least_on_pieces : window_ ? least_without_front : least_on_panels;
+    error_ = std::max({error, misfit, least * model_.rtol});
     const VectorXd steering = rings_of_ ? level.theory->steering() : VectorXd();
     hysteresis_ = {mu_factor_ * now.friction, mu_factor_ * now.friction * error_, mu_factor_ * now.friction * outside,
                    mu_factor_ * (steering.size() > 0 ? across(level, now, steering) : lateral)};
@@ -357,7 +405,7 @@ double LevelSolver::g(double wavenumber) const {
   solved_->grid->nodes_to(place, q, weight);
   double sum = 0;
   for (std::size_t i = 0; i < q.size(); ++i) sum += weight[i] * modulus(q[i]).i2;
-  return solved_->theory->g_before(place) + scale_ * sum;
+  return scale_ * (solved_->theory->unit_g_before(place) + sum);
 }
 
 double LevelSolver::stress(double wavenumber) const {

@@ -10,7 +10,6 @@
 
 #include "contact/grid/grid.hpp"
 #include "contact/grid/roughness_pieces.hpp"
-#include "contact/solver/panel_solver.hpp"
 #include "contact/theory/edges.hpp"
 #include "contact/theory/theory.hpp"
 
@@ -21,19 +20,23 @@ namespace asperity {
 class LevelSolver {
  public:
   struct Options {
+    bool hysteresis = true;              // or G alone
     bool parts = false;                  // what a wavenumber has is asked for too, which panels know
     std::span<const double> stops = {};  // frequencies at which panels shall end [rad/s]; must outlive the solver
-    bool panels = true;                  // where pieces do not serve
+  };
+  struct Hysteresis {
+    double value = 0, error = 0;
+    double outside = 0;  // the part of it from frequencies outside of the measured range
+    double lateral = 0;  // the force across
   };
   /// `surface` is that of the spectrum; all but the options must outlive it.
   LevelSolver(const Spectrum& spectrum, std::span<const Segment> surface, const Excitation& waves,
               const ContactModel& model, const Options& options);
 
-  /// A point; one at the velocity of the point before is cheap. Where there are panels NotConverged if the tolerance is
-  /// not reached, false elsewhere.
-  [[nodiscard]] bool solve(double pressure, double velocity, double shift);
+  /// A point; one at the velocity of the point before is cheap. NotConverged if the tolerance is not reached.
+  void solve(double pressure, double velocity, double shift);
 
-  [[nodiscard]] const PanelSolver::Hysteresis& hysteresis() const { return hysteresis_; }
+  [[nodiscard]] const Hysteresis& hysteresis() const { return hysteresis_; }
   [[nodiscard]] const ContactSums& sums() const { return sums_; }
   /// G at the end of the spectrum, before kappa; the relative error of it and of the area, which PartialContact has
   /// among its sums.
@@ -56,6 +59,7 @@ class LevelSolver {
     std::unique_ptr<ContactGrid> grid;
     std::unique_ptr<Theory> theory;
     std::vector<std::array<Eigen::Index, 2>> common_ends;  // of cells of the level before, and of this one
+    Eigen::VectorXd place;                                 // ln q of nodes of panels
     std::vector<ModulusFactors> factors;                   // none where all are 1
     Rings rings;                                           // with directions
     double velocity = 0;
@@ -69,8 +73,9 @@ class LevelSolver {
   [[nodiscard]] bool kinks() const { return !analytic_ || waves_.softening(); }
   void begin(double velocity);
   void begin_panels();
+  void end_panels_at_front();
   void take_harmonics();
-  [[nodiscard]] bool solve_on(Levels& levels, double pressure, double shift);
+  [[nodiscard]] bool solve_on(Levels& levels, double pressure, double shift, bool at_front = false);
   Level& at_velocity(Levels& levels, std::size_t number);
   void lay_out(Levels& levels, std::size_t number);
   void take_moduli(Level& level, bool first);
@@ -78,6 +83,7 @@ class LevelSolver {
   void add_directions_of_pieces(Level& level, std::span<double> of_loss);
   void check_directions(const Level& level) const;
   static void take_common_ends(Level& fine, const Level& coarse);
+  [[nodiscard]] static double mean_place(const Level& level);
   [[nodiscard]] static double apart(const Level& coarse, const Level& fine);
   [[nodiscard]] double beside_knots(const Level& level, const ContactSums& sums);
   [[nodiscard]] double outside_share(const Level& level, const ContactSums& sums) const;
@@ -94,7 +100,7 @@ class LevelSolver {
   double stiffening_;
   std::optional<RoughnessWindow> window_;      // with PartialContact
   Levels pieces_, panels_;                     // none where they do not serve
-  std::size_t first_level_ = 1;                // of panels
+  std::size_t first_level_ = 0;                // of panels
   std::optional<RoughnessCells> from_next_;    // to the first level of panels, where the modulus is analytic
   std::vector<double> stops_;                  // of panels at the velocity [1/m]
   std::optional<double> held_from_;            // where beyond the end of the roughness the modulus is not known [1/m]
@@ -111,7 +117,7 @@ class LevelSolver {
   std::vector<double> of_i1_, of_i2_;  // what the rule misses of I1 and I2 at the nodes
   bool known_in_part_ = false, any_outside_ = false;
   ContactSums sums_;
-  PanelSolver::Hysteresis hysteresis_;
+  Hysteresis hysteresis_;
   const Level* solved_ = nullptr;  // the finer of the last two
   double scale_ = 0, mu_factor_ = 0, g_ = 0, error_ = 0;
 };

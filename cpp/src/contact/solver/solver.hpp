@@ -1,5 +1,5 @@
-// Area and hysteresis at a point by the method asked for: levels of nodes with PartialContact, with directions and on
-// the rings of a table, panels with an error of each elsewhere, or GSL's adaptive integration as the independent check.
+// Area and hysteresis at a point by the method asked for: levels of nodes, or GSL's adaptive integration as the
+// independent check.
 #pragma once
 
 #include <optional>
@@ -8,19 +8,17 @@
 
 #include "contact/solver/gsl_solver.hpp"
 #include "contact/solver/level_solver.hpp"
-#include "contact/solver/panel_solver.hpp"
 
 namespace asperity {
 
 class Solver {
  public:
-  using Hysteresis = PanelSolver::Hysteresis;
+  using Hysteresis = LevelSolver::Hysteresis;
 
   struct Options {
     bool hysteresis = true;              // or G alone
     bool parts = false;                  // what a wavenumber has is asked for too; else the surface is the whole one
     std::span<const double> stops = {};  // frequencies at which panels end too [rad/s], which must outlive the solver
-    bool levels = false;                 // by levels of nodes even where panels with errors of their own are quicker
   };
   /// `surface` is that of the spectrum, or a part of it from its lower end on.
   Solver(const Spectrum& spectrum, std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model,
@@ -29,14 +27,12 @@ class Solver {
   /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
   void solve(double pressure, double velocity, double shift);
 
-  [[nodiscard]] const Hysteresis& hysteresis() const {
-    return by_levels_ ? levels_->hysteresis() : gsl_solver_ ? hysteresis_ : panel_solver_.hysteresis();
-  }
+  [[nodiscard]] const Hysteresis& hysteresis() const { return levels_ ? levels_->hysteresis() : hysteresis_; }
   [[nodiscard]] double hysteresis_density(double wavenumber) const;  // dmu_H / dln q
   [[nodiscard]] double g(double wavenumber) const;
   /// Of every G; `hysteresis` has what that makes of it where the second holds.
   [[nodiscard]] double relative_error() const;
-  [[nodiscard]] bool g_error_is_in_hysteresis() const { return by_levels_; }
+  [[nodiscard]] bool g_error_is_in_hysteresis() const { return levels_.has_value(); }
   /// Of PartialContact: kappa, A / A0 at the upper end of the spectrum with its relative error, and R at a wavenumber.
   [[nodiscard]] double kappa() const { return sums().kappa; }
   [[nodiscard]] double partial_area() const { return sums().share; }
@@ -48,21 +44,15 @@ class Solver {
 
  private:
   [[nodiscard]] const ContactSums& sums() const { return levels_->sums(); }
-  void start(double velocity);
 
   std::span<const Segment> surface_;
   const ContactModel& model_;
   Excitation waves_;
   std::optional<SFunction> factor_;
-  std::optional<ContactIntegral> contact_;
   Options options_;
-  PanelSolver panel_solver_;
-  double velocity_ = 0, panel_velocity_ = 0;  // of the point before, and of the last that panels were made for
   std::optional<LevelSolver> levels_;
-  bool by_levels_ = false;  // the point
-  std::vector<double> stop_wavenumbers_;
-  std::optional<GslSolver> gsl_solver_;  // by GSL
-  Hysteresis hysteresis_;
+  std::optional<GslSolver> gsl_solver_;  // of the point
+  Hysteresis hysteresis_;                // by GSL, as its panels
   std::vector<double> by_panel_;
 };
 

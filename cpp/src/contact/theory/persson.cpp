@@ -62,6 +62,13 @@ double Theory::g_on(const ContactGrid::Place& place) const {
 
 namespace {
 
+/// Weight times derivative at each node, a column for the value at each.
+auto slopes_of(const LegendreRule& rule) {
+  const auto n = static_cast<Index>(rule.n);
+  return Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>(&rule.slope[0][0], n, n,
+                                                             Eigen::OuterStride<>(LegendreRule::most));
+}
+
 double p_of(double g, Form form) { return g <= 0 ? 1 : contact_share(g, form); }
 
 class PerssonTheory final : public Theory {
@@ -79,6 +86,7 @@ class PerssonTheory final : public Theory {
   [[nodiscard]] double area() override { return p_of(area_g_(g()), form_); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   void gradient(const ContactNumber& number, ContactGradient& result) override;
+  [[nodiscard]] double front_misfit() override;
   [[nodiscard]] double stress_at(double g, double /*wavenumber*/, double /*i2*/) const override { return p_s(g); }
 
  private:
@@ -105,7 +113,7 @@ class PerssonTheory final : public Theory {
 
 /// F at values of G; their number is a multiple of `lanes`.
 void PerssonTheory::integral_of(const double* g, Index n, double* f) const {
-  kernels().contact_integral(contact_.table, g, static_cast<std::size_t>(n), f, nullptr);
+  kernels().contact_integral(contact_.table, g, static_cast<std::size_t>(n), f);
   for (Index i = 0; i < n; ++i)
     if (g[i] < contact_.whole) f[i] = g[i];
 }
@@ -113,11 +121,11 @@ void PerssonTheory::integral_of(const double* g, Index n, double* f) const {
 /// P S at the nodes.
 void PerssonTheory::take_stress() {
   const Index n = g_at_load_.size();
-  stress_.resize(n);
+  stress_ = g_at_load_.cwiseMax(0);  // an interpolated G may be below 0 at the first nodes
   if (form_ == Form::exact)
-    contact_shares(g_at_load_.data(), static_cast<std::size_t>(n), stress_.data());
+    contact_shares(stress_.data(), static_cast<std::size_t>(n), stress_.data());
   else
-    for (Index i = 0; i < n; ++i) stress_[i] = p_of(g_at_load_[i], form_);
+    for (double& one : stress_) one = p_of(one, form_);
   const double gamma = contact_.gamma;
   if (factor_)
     for (Index i = 0; i < n; ++i) stress_[i] *= gamma + (1 - gamma) * (stress_[i] * stress_[i]);
@@ -151,17 +159,45 @@ void PerssonTheory::evaluate(double scale, std::optional<double> /*log_kappa*/) 
     integral_of(g_at_load_.data(), n, f_.data());
     for (std::size_t c = 0; c < cells.size(); ++c) {
       const auto first = static_cast<Index>(cells[c].first);
+      const auto count = static_cast<Index>(cells[c].count);
       const double lower = f_edge_[c], rise = f_edge_[c + 1] - lower;
       const LegendreRule& rule = *cells[c].rule;
-      for (std::size_t j = 0; j < rule.n; ++j) {
-        double sum = rise * rule.at_upper[j];
-        for (std::size_t i = 0; i < rule.n; ++i) sum -= rule.slope[j][i] * (f_[first + static_cast<Index>(i)] - lower);
-        measure_[first + static_cast<Index>(j)] = sum;
-      }
+      f_.segment(first, count).array() -= lower;
+      auto measure = measure_.segment(first, count);
+      measure = -slopes_of(rule).transpose().lazyProduct(f_.segment(first, count));
+      measure += rise * Eigen::Map<const VectorXd>(rule.at_upper, count);
     }
     part_.head(n) = ratio_.head(n).cwiseProduct(measure_);
   }
   macro_ = p_of(scale * g_macro_, form_);
+}
+
+/// What a panel's rule on P S dG is off the rise of F, times what R changes between two nodes there: by parts,
+/// friction has F at all ends, and what the rule misses of a front is no farther from a node.
+double PerssonTheory::front_misfit() {
+  if (grid_.pieces()) return 0;
+  constexpr double begins = 0.02, ends = 10;  // of G: P changes between
+  take_stress();
+  double result = 0;
+  for (std::size_t c = 0; c < grid_.cells().size(); ++c) {
+    if (!(edge_[c] < ends && edge_[c + 1] > begins)) continue;
+    const auto first = static_cast<Index>(grid_.cells()[c].first), count = static_cast<Index>(grid_.cells()[c].count);
+    const auto g = g_at_load_.segment(first, count), ratio = ratio_.segment(first, count);
+    int gaps = 0;
+    double apart = 0;
+    for (Index i = 1; i < count; ++i) {
+      const double next = i + 1 < count ? g[i + 1] : edge_[c + 1];
+      if (!(g[i - 1] < ends && next > begins)) continue;
+      ++gaps;
+      apart = std::fmax(apart, std::fabs(ratio[i] - ratio[i - 1]));
+    }
+    if (gaps < 2) apart = ratio.maxCoeff() - ratio.minCoeff();
+    const double rule = (grid_.weight().segment(first, count).array() * i2_.segment(first, count).array() *
+                         stress_.segment(first, count).array())
+                            .sum();
+    result += std::fabs((f_edge_[c + 1] - f_edge_[c]) / scale_ - rule) * apart;
+  }
+  return result;
 }
 
 const ContactSums& PerssonTheory::solve(double scale, double /*rtol*/, double /*start*/) {
@@ -184,13 +220,11 @@ void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& res
     auto part = result.part.middleRows(first, count);
     if (cells[c].rule) {  // d(measure) by dF = P S dG
       const LegendreRule& rule = *cells[c].rule;
-      using Columns = Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>;
-      const Columns slope(&rule.slope[0][0], count, count, Eigen::OuterStride<>(LegendreRule::most));
       const Eigen::Map<const VectorXd> at_lower(rule.at_lower, count), at_upper(rule.at_upper, count);
       VectorXd share(count);
       for (Index i = 0; i < count; ++i) share[i] = p_s(g_at_load_[first + i]);
       const MatrixXd df = share.asDiagonal() * slopes.node.middleRows(first, count);
-      part.noalias() = -(slope.transpose() * df);
+      part.noalias() = -(slopes_of(rule).transpose() * df);
       part += at_upper * (p_s(edge_[c + 1]) * slopes.edge.row(edge + 1)) -
               at_lower * (p_s(edge_[c]) * slopes.edge.row(edge));
       part = ratio_.segment(first, count).asDiagonal() * part;
@@ -231,11 +265,9 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
     const double at_end = p_s(edge_[c + 1]), before = std::exchange(at_begin, at_end);
     if (cells[c].rule) {  // by dF = P S dG
       const LegendreRule& rule = *cells[c].rule;
-      using Columns = Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>;
-      const Columns slope(&rule.slope[0][0], count, count, Eigen::OuterStride<>(LegendreRule::most));
       const Eigen::Map<const VectorXd> at_lower(rule.at_lower, count), at_upper(rule.at_upper, count);
       const VectorXd by_measure = number.by_part.segment(first, count).cwiseProduct(ratio_.segment(first, count)),
-                     by_f = -(slope * by_measure);
+                     by_f = -(slopes_of(rule) * by_measure);
       for (Index i = 0; i < count; ++i) by_node[first + i] = p_s(g_at_load_[first + i]) * by_f[i];
       by_edge[edge + 1] += at_end * at_upper.dot(by_measure);
       by_edge[edge] -= before * at_lower.dot(by_measure);

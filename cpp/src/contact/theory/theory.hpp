@@ -80,6 +80,8 @@ class Theory {
   /// ln kappa of the last evaluation, and by how much its rule is off; none without PartialContact.
   [[nodiscard]] virtual std::optional<double> log_kappa() const { return {}; }
   [[nodiscard]] virtual double off_rule() const { return 0; }
+  /// Of the last solution: the error of friction, at most, from what the rule on the nodes misses of a front.
+  [[nodiscard]] virtual double front_misfit() { return 0; }
   virtual void begin_at(double /*log_kappa*/) {}
   /// Of the last evaluation.
   virtual void differentiate(const ModulusSlopes& along, ContactSlopes& result) = 0;
@@ -99,9 +101,9 @@ class Theory {
   [[nodiscard]] double macro_area() const { return macro_; }  // P at q_m
   [[nodiscard]] double g() const { return scale_ * unit_g(); }
   [[nodiscard]] double unit_g() const { return g_edge_.empty() ? 0 : g_edge_.back(); }  // at q1 and unit load
-  /// G at the load at a place, by the polynomial through I2 of its panel's nodes; and where the panel begins.
+  /// G at the load at a place, by the polynomial through I2 of its panel's nodes; at unit load where the panel begins.
   [[nodiscard]] double g_on(const ContactGrid::Place& place) const;
-  [[nodiscard]] double g_before(const ContactGrid::Place& place) const { return scale_ * g_edge_[place.cell]; }
+  [[nodiscard]] double unit_g_before(const ContactGrid::Place& place) const { return g_edge_[place.cell]; }
   /// Of the band's nodes: G at unit load, and what stands where Eq. 22 has P S.
   [[nodiscard]] const Eigen::VectorXd& node_g() const { return g_; }
   [[nodiscard]] const Eigen::VectorXd& stress() const { return stress_; }
