@@ -13,6 +13,7 @@
 #include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/libraries.hpp"
+#include "numerics/rounding.hpp"
 #include "spectrum/harmonics.hpp"
 
 namespace asperity {
@@ -62,23 +63,11 @@ class AsSolved {
   std::shared_ptr<const Spectrum> rows_;
 };
 
-/// Of an angle in radians.
-inline std::optional<Diagnostic> note_on_angle(double direction) {
-  constexpr double turn = 6.283185307179586477;
-  if (!(std::fabs(direction) > turn)) return std::nullopt;
-  return warning("large-angle",
-                 argument("direction") + " = " + value(direction, 6) + " is more than a turn: it is in radians",
-                 {"give the angle in radians"});
-}
-
 inline void refuse_directions(const Spectrum& spectrum, const char* what) {
   if (is_directional(spectrum))
     throw InvalidInput(argument("spectrum") + ": knows directions, of which there is no " + what + must(", must be ") +
                        "a mean over them");
 }
-
-/// Whether products of a number keep all their digits.
-inline bool is_representable(double value) { return value >= 1e-280 && value <= 1e280; }
 
 /// Refuses a G at the end of the spectrum that a double cannot hold, by the pressure it comes from.
 inline void check_g(double g, double pressure) {
@@ -129,11 +118,10 @@ inline Sentence way_beyond(const Rubber& rubber) {
 inline void check_frequencies(const Spectrum& spectrum, const Rubber& rubber, std::span<const double> velocity) {
   const std::optional<FrequencyRange> known = known_range(rubber);
   if (!known) return;
-  constexpr double rounding = 1e-12;
   const auto [q0, q1] = band(spectrum);
   const auto [lowest, highest] = *known;
   const auto [slowest, fastest] = std::ranges::minmax(velocity);
-  const bool above = fastest * q1 > highest * (1 + rounding), below = slowest * q0 < lowest * (1 - rounding);
+  const bool above = is_above(fastest * q1, highest), below = is_below(slowest * q0, lowest);
   if (!above && !below) return;
   const double worst = above ? fastest : slowest;
   const ShownRange range(lowest, highest);

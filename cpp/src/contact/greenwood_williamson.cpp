@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numbers>
 #include <string>
 
@@ -13,6 +12,7 @@
 #include "contact/peak_loops.hpp"
 #include "numerics/adaptive_quadrature.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/chebyshev.hpp"
 #include "numerics/roots.hpp"
 
 namespace asperity {
@@ -53,49 +53,11 @@ double integrated(double t) {
   return at_peak + std::log(left.value + right.value + tail.value) - std::log(2 * pi) / 2;
 }
 
-/// ln of the moment for |t| <= 100, with t^2 / 2 added where t > 0, as Chebyshev series in w = asinh t on panels half a
-/// unit wide, made when first asked for: a root search asks dozens of times within one panel. 24 terms leave 2e-15.
-class MomentTable {
- public:
-  static constexpr double end = 100;
-
-  double operator()(double t) {
-    const double w = std::asinh(t) - lowest;
-    const auto i = static_cast<std::size_t>(w / width);
-    Panel& panel = panels_[i];
-    std::call_once(panel.made, [&] { make(i); });
-    const double x = 2 * (w / width - static_cast<double>(i)) - 1;
-    double b1 = 0, b2 = 0;  // Clenshaw's sum
-    for (std::size_t k = terms; k-- > 1;) {
-      const double b = panel.series[k] + 2 * x * b1 - b2;
-      b2 = b1;
-      b1 = b;
-    }
-    return panel.series[0] + x * b1 - b2 - (t > 0 ? t * t / 2 : 0);
-  }
-
- private:
-  static constexpr std::size_t terms = 24, panels = 22;
-  static constexpr double width = 0.5, lowest = -0.25 * panels;  // panels meet at t = 0
-
-  struct Panel {
-    std::once_flag made;
-    std::array<double, terms> series{};
-  };
-
-  void make(std::size_t i) {
-    std::array<double, terms>& series = panels_[i].series;
-    for (std::size_t n = 0; n < terms; ++n) {
-      const double angle = pi * (static_cast<double>(n) + 0.5) / terms;
-      const double t = std::sinh(lowest + width * (static_cast<double>(i) + (std::cos(angle) + 1) / 2));
-      const double f = integrated(t) + (i >= panels / 2 ? t * t / 2 : 0);
-      for (std::size_t k = 0; k < terms; ++k)
-        series[k] += (k == 0 ? 1.0 : 2.0) / terms * f * std::cos(static_cast<double>(k) * angle);
-    }
-  }
-
-  std::array<Panel, panels> panels_;
-};
+/// ln of the moment, with t^2 / 2 added where t > 0, over asinh t: a root search asks dozens of times within one piece.
+double smooth_moment(double asinh_t) {
+  const double t = std::sinh(asinh_t);
+  return integrated(t) + (t > 0 ? t * t / 2 : 0);
+}
 
 }  // namespace
 
@@ -105,14 +67,15 @@ class MomentTable {
 double log_gaussian_moment(double t) {
   require_finite("t", t);
   const double u = 1 / t / t;
-  if (t < -MomentTable::end)
+  static PiecewiseChebyshev<double> table(-6, 6, smooth_moment);  // pieces meet at t = 0
+  const double w = std::asinh(t);
+  if (w < -table.highest())
     return 1.5 * std::log(-t) + std::log1p(u * (3.0 / 8 + u * (9.0 / 128 + u * (105.0 / 1024))));
-  if (t > MomentTable::end) {
+  if (w > table.highest()) {
     const double series = u * (-35.0 / 8 + u * (3465.0 / 128 + u * (-225225.0 / 1024)));
     return -t * t / 2 + std::log(3.0 / (4 * std::numbers::sqrt2)) - 2.5 * std::log(t) + std::log1p(series);
   }
-  static MomentTable table;
-  return table(t);
+  return table(w) - (t > 0 ? t * t / 2 : 0);
 }
 
 namespace {

@@ -12,6 +12,7 @@
 #include "contact/grid/directions.hpp"
 #include "contact/heights.hpp"
 #include "contact/theory/s_factor.hpp"
+#include "numerics/rounding.hpp"
 #include "rubber/loss_part.hpp"
 #include "spectrum/table_surface.hpp"
 
@@ -81,9 +82,9 @@ ModelError::ModelError(const Correction& correction, const Spectrum& spectrum, c
   const auto [q0, q1] = band(spectrum);
   q0_ = q0;
   q1_ = q1;
-  constexpr double rounding = 1e-9;
   if (note_on_heights(spectrum).has_value()) return;  // those of the contacts were Gaussian
-  if (q1 < q0 * narrowest * (1 - rounding) || q1 > q0 * widest * (1 + rounding)) return;
+  const double bandwidth = q1 / q0;
+  if (!is_within(bandwidth, narrowest, widest)) return;
   const Tables* const tables = tables_of(correction);
   if (!tables) return;
   const TabulatedSpectrum* const ridges = harmonics_of(spectrum);
@@ -91,15 +92,15 @@ ModelError::ModelError(const Correction& correction, const Spectrum& spectrum, c
     const Rings mean = Directions(*ridges, 0).mean();
     const bool partial = std::holds_alternative<PartialContact>(correction);
     if (!(partial || tables == &no_correction) || std::hypot(mean.along[0], mean.across[0]) > strongest) return;
-    if (q1 < q0 * narrowest_on_ridges * (1 - rounding) || q1 > q0 * road * (1 + rounding)) return;
+    if (!is_within(bandwidth, narrowest_on_ridges, road)) return;
     at_least_ = partial ? ridges_partial_contact : ridges_without_correction;
   }
-  if (q1 > q0 * road * (1 + rounding)) {
+  if (is_above(bandwidth, road)) {
     by_speed_ = tables->road;
     lightest_ = lightest_on_road;
     heaviest_ = heaviest_on_road;
   } else {
-    const bool is_wide = q1 >= q0 * wide * (1 - rounding);
+    const bool is_wide = !is_below(bandwidth, wide);
     by_load_ = is_wide ? tables->wide : tables->narrow;
     lightest_ = is_wide ? lightest : lightest_of_narrow;
     heaviest_ = heaviest;

@@ -16,6 +16,7 @@
 #include "contact/conditions.hpp"
 #include "contact/scan_parts.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/rounding.hpp"
 #include "sliding/scan_lattice.hpp"
 #include "spectrum/segments.hpp"
 
@@ -42,8 +43,8 @@ double slope_variance(const Spectrum& spectrum, const Band& band) {
 /// The rings of the map, and what the spectrum has beyond them, in rows.
 Spectrum beyond_map(const Spectrum& rings, const Spectrum& spectrum, const Band& known) {
   const auto [q0, q1] = band(spectrum);
-  constexpr double rounding = 1e-9, per_decade = 16;
-  if (q0 >= known.q0 * (1 - rounding) && q1 <= known.q1 * (1 + rounding)) return rings;
+  constexpr double per_decade = 16;
+  if (!is_below(q0, known.q0) && !is_above(q1, known.q1)) return rings;
   const auto& table = std::get<TabulatedSpectrum>(rings);
   std::vector<double> wavenumber, density;
   const auto add = [&](double lowest, double highest) {
@@ -62,10 +63,10 @@ Spectrum beyond_map(const Spectrum& rings, const Spectrum& spectrum, const Band&
     }
   };
   const auto first = table.wavenumber().front(), last = table.wavenumber().back();
-  if (q0 < known.q0 * (1 - rounding)) add(q0, std::nextafter(first, 0));
+  if (is_below(q0, known.q0)) add(q0, std::nextafter(first, 0));
   wavenumber.insert(wavenumber.end(), table.wavenumber().begin(), table.wavenumber().end());
   density.insert(density.end(), table.density().begin(), table.density().end());
-  if (q1 > known.q1 * (1 + rounding)) add(std::nextafter(last, q1), q1);
+  if (is_above(q1, known.q1)) add(std::nextafter(last, q1), q1);
   return TabulatedSpectrum(std::move(wavenumber), std::move(density));
 }
 
@@ -229,7 +230,7 @@ std::vector<Diagnostic> ScanRatios::notes() const {
   const double side = std::min(static_cast<double>(ny) * dy, static_cast<double>(nx) * dx);
   const double waves = side * band_.q0 / (2 * std::numbers::pi);
   constexpr double few = 4;
-  if (waves < few * (1 - 1e-9) && contact_.continuation() != Continuation::periodic)
+  if (is_below(waves, few) && contact_.continuation() != Continuation::periodic)
     result.push_back(warning("few-long-waves",
                              "the scan holds " + value(waves, 2) + " of its longest waves to a side, where " +
                                  show(few) +

@@ -11,6 +11,7 @@
 #include "contact/correction.hpp"
 #include "contact/heights.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/rounding.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -79,7 +80,7 @@ ValidityRange::ValidityRange(std::span<const Segment> surface, Form form, double
 ValidityFlags ValidityRange::operator()(double g, double p) {
   const double uncorrected = g * p * p;
   ValidityFlags result;
-  result.light = 8 * uncorrected * lowest_measured_load * lowest_measured_load > 1 + 1e-9;
+  result.light = is_above(8 * uncorrected * lowest_measured_load * lowest_measured_load, 1);
   if (!(g > 0 && p > 1 && std::isfinite(uncorrected))) return result;
   if (!best_) best_.emplace(nayak_s(nayak_parameter(surface_, wavenumber_)), form_);
   const double best = contact_share((*best_)(uncorrected), form_);
@@ -107,9 +108,7 @@ void Notes::add(const Shift& shift, double velocity, const ValidityFlags& flags)
   full_ |= shift.state == ContactState::full;
   no_contact_ |= shift.state == ContactState::no_contact;
   far_ |= shift.state == ContactState::partial && shift.separation_over_rms > separation_limit;
-  constexpr double rounding = 1e-12;
-  beyond_fit_ |=
-      fitted_ && (velocity < fitted_->lowest * (1 - rounding) || velocity > fitted_->highest * (1 + rounding));
+  beyond_fit_ |= fitted_ && !is_within(velocity, fitted_->lowest, fitted_->highest);
   worse_ |= flags.worse;
   strained_ = std::fmax(strained_, flags.strained);
   light_ |= corrected_ && !by_sliding_ && flags.light;
@@ -132,7 +131,7 @@ void Notes::add(const Notes& others) {
 std::vector<Diagnostic> Notes::texts(bool heated) const {
   std::vector<Diagnostic> result;
   // a spectrum cut by the rule itself ends at the limit to rounding
-  if (rms_slope_ > slope_limit * (1 + 1e-9))
+  if (is_above(rms_slope_, slope_limit))
     result.push_back(warning("steep-spectrum",
                              "the rms slope is " + value(rms_slope_, 4) + ", above " + show(slope_limit) +
                                  ", where the cut-off rule ends a spectrum: mu rests on the choice of " +

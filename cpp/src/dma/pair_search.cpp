@@ -11,7 +11,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double more_noise = 0.03;
 constexpr std::array<double, moduli> offset{0.02, 0.03};      // of ln E', ln E'', standard deviation
 constexpr double nearest = 0.02, beyond = 1, steepest = 0.6;  // decades, decades, decades per kelvin
 
@@ -26,7 +25,7 @@ class Pair {
     const std::size_t start = points.first[colder];
     for (std::size_t modulus = 0; modulus < moduli; ++modulus) {
       const double noise = smoothness.noise[modulus];
-      variance_[modulus] = noise * noise + more_noise * more_noise;
+      variance_[modulus] = noise * noise + noise_floors[0] * noise_floors[0];
       log_penalty_[modulus] =
           (smoothness.log_penalty[modulus][colder] + smoothness.log_penalty[modulus][colder + 1]) / 2 +
           std::log(variance_[modulus] / (noise * noise));

@@ -120,6 +120,8 @@ Smoothness local_smoothness(const SweepPoints& points);
 
 /// Noise no lower than this: a clean curve too is no spline of knots 0.2 decades apart.
 constexpr double least_noise = 2e-4;
+/// A search begins with noise of so much more, which is then taken away in turn.
+inline constexpr std::array noise_floors{0.03, 0.01, 0.003, least_noise};
 
 /// ln(-d log10 a_T / dT) changes little from step to step. The prior steadies plateaus, where the data say nothing.
 struct RatePrior {

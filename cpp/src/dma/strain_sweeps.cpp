@@ -7,6 +7,7 @@
 #include "asperity/dma.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
+#include "numerics/rounding.hpp"
 
 namespace asperity {
 
@@ -15,7 +16,7 @@ namespace {
 /// In rising order, those that differ by rounding as one.
 void sort_apart(std::vector<double>& numbers) {
   std::ranges::sort(numbers);
-  const auto near = [](double a, double b) { return b - a <= 1e-9 * a; };
+  const auto near = [](double a, double b) { return !is_above(b, a); };
   const auto repeated = std::ranges::unique(numbers, near);
   numbers.erase(repeated.begin(), repeated.end());
 }
@@ -150,7 +151,7 @@ StrainRatios strain_factors(std::span<const StrainSweep> sweeps, std::optional<d
   for (std::size_t i = 1; i < strain.size(); ++i) {
     Spread f_step, g_step, f_whole, g_whole;
     for (const StrainSweep& sweep : sweeps) {
-      if (!(sweep.strain().back() >= strain[i] * (1 - 1e-9))) continue;
+      if (is_below(sweep.strain().back(), strain[i])) continue;
       const double at = std::fmin(strain[i], sweep.strain().back());
       const auto over = [&](const std::vector<double>& modulus, double from) {
         return log_modulus(sweep, modulus, at) - log_modulus(sweep, modulus, from);

@@ -19,8 +19,8 @@ bool meet(const Isotherm& a, const Isotherm& b, double b_a, double b_b) {
 namespace {
 
 /// Where f is least near x, by quasi-Newton steps (BFGS; J. Nocedal and S. J. Wright, Numerical Optimization, Springer
-/// 2006, Algorithm 6.1 with a line search that halves). `inverse`, of the Hessian, is
-/// improved on the way: one that is empty begins as the identity. Ends where a step would gain less than `gain`.
+/// 2006, Algorithm 6.1 with a line search that halves). `inverse`, of the Hessian, is improved on the way: one that is
+/// empty begins as the identity. Ends where a step would gain less than `gain`.
 void minimize(ShiftLikelihood& f, Eigen::VectorXd& x, Eigen::MatrixXd& inverse, double gain) {
   constexpr int most_steps = 200;
   const Eigen::Index n = x.size();
@@ -74,17 +74,16 @@ void minimize(ShiftLikelihood& f, Eigen::VectorXd& x, Eigen::MatrixXd& inverse, 
 constexpr double gain = 1e-4, rough_gain = 1e-2;
 
 ShiftFit descend(ShiftLikelihood& likelihood, const Smoothness& smoothness, Eigen::VectorXd unknowns, double weight,
-                 std::initializer_list<double> floors) {
+                 std::span<const double> floors) {
   ShiftFit fit{std::move(unknowns), {}, weight};
   likelihood.weight = weight;
   for (const double floor : floors) {
     likelihood.floor = floor;
-    if (floor == *floors.begin())
+    if (floor == floors.front())
       for (std::size_t m = 0; m < moduli; ++m)  // as much smoother as the noise is larger
         fit.unknowns[fit.unknowns.size() - 2 + static_cast<Eigen::Index>(m)] +=
             std::log1p(std::pow(floor / smoothness.noise[m], 2));
-    const bool last = floor == *(floors.end() - 1);
-    minimize(likelihood, fit.unknowns, fit.inverse, last ? gain : rough_gain);
+    minimize(likelihood, fit.unknowns, fit.inverse, floor == floors.back() ? gain : rough_gain);
   }
   Eigen::VectorXd gradient;
   likelihood(fit.unknowns, gradient);  // so that its splines are those of the end
@@ -97,7 +96,7 @@ ShiftFit from_pairs(ShiftLikelihood& likelihood, const Smoothness& smoothness, d
   Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(steps.size() + moduli));
   for (std::size_t k = 0; k < steps.size(); ++k)
     start[static_cast<Eigen::Index>(k)] = std::log(steps[k] / (points.temperature[k + 1] - points.temperature[k]));
-  return descend(likelihood, smoothness, start, weight, {0.03, 0.01, 0.003, least_noise});
+  return descend(likelihood, smoothness, start, weight, noise_floors);
 }
 
 std::vector<double> about(std::vector<double> shift, std::size_t fixed) {
@@ -110,7 +109,7 @@ std::vector<double> about(std::vector<double> shift, std::size_t fixed) {
 
 ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness, const Eigen::VectorXd& near,
                     double weight) {
-  return descend(likelihood, smoothness, near, weight, {0.01, 0.003, least_noise});
+  return descend(likelihood, smoothness, near, weight, std::span(noise_floors).subspan(1));
 }
 
 ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness) {
@@ -126,9 +125,9 @@ ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness) {
       return likelihood(of.unknowns, gradient);
     };
     if (cost(other) < cost(fit)) fit = other;
-    return descend(likelihood, smoothness, fit.unknowns, weight, {least_noise});
+    return descend(likelihood, smoothness, fit.unknowns, weight, std::span(noise_floors).last(1));
   }
-  return share < 1 ? descend(likelihood, smoothness, fit.unknowns, share, {least_noise}) : fit;
+  return share < 1 ? descend(likelihood, smoothness, fit.unknowns, share, std::span(noise_floors).last(1)) : fit;
 }
 
 Shifted joint_shifts(const SweepPoints& points, std::size_t fixed) {

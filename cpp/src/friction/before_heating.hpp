@@ -1,9 +1,11 @@
 // Friction as it would be without the heat that it makes, and what comes before this heat.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "asperity/friction.hpp"
+#include "contact/grid/grid.hpp"
 
 namespace asperity {
 
@@ -13,6 +15,10 @@ Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber,
                                  std::span<const double> pressure, std::span<const double> velocity,
                                  std::span<const double> temperature, bool contributions, unsigned threads,
                                  bool heated);
+
+/// Adds the parts of mu_H, `whole`, to the decades of point i, from those of panels with their ends [1/m].
+void add_decades(Contributions& c, std::size_t i, double velocity, double whole,
+                 std::span<const ContactGrid::PanelSum> shares);
 
 /// mu_A per contact share (Eq. 23).
 double adhesion_per_share(const Adhesion& adhesion, double pressure, double velocity);

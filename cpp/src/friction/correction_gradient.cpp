@@ -1,12 +1,11 @@
 #include "friction/correction_gradient.hpp"
 
 #include "contact/correction.hpp"
+#include "numerics/differences.hpp"
 
 namespace asperity {
 
 namespace {
-
-constexpr double step = 1e-4;  // of ln gamma
 
 /// visit(name, number) for each number that the correction was made with.
 template <class C, class Visit>
@@ -80,8 +79,8 @@ Correction changed_correction(const Correction& correction, std::size_t argument
 GammaGradient::GammaGradient(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface,
                              const ContactGrid& grid)
     : form_(model.form),
-      less_(with_gamma(model, 1 - step), spectrum, surface, surface.back().b),
-      more_(with_gamma(model, 1 + step), spectrum, surface, surface.back().b) {
+      less_(with_gamma(model, 1 - difference_step), spectrum, surface, surface.back().b),
+      more_(with_gamma(model, 1 + difference_step), spectrum, surface, surface.back().b) {
   if (s_in_integrand(model.correction))
     without_ = contact_theory(with_gamma(model, 0), spectrum, surface, grid, nullptr);
 }
@@ -89,7 +88,7 @@ GammaGradient::GammaGradient(const ContactModel& model, const Spectrum& spectrum
 double GammaGradient::operator()(const NodeModulus& modulus, const ContactGradient& of, double by_area, double g) {
   double result = 0;
   if (by_area != 0 && g > 0)
-    result = by_area * (contact_share(more_(g), form_) - contact_share(less_(g), form_)) / (2 * step);
+    result = by_area * (contact_share(more_(g), form_) - contact_share(less_(g), form_)) / (2 * difference_step);
   if (!without_) return result;
   without_->start({});
   without_->take(modulus);

@@ -79,19 +79,12 @@ HeatNotes notes_of(double rise, double velocity, int branches, double macro_area
 
 void add_contributions(const FlashSolver& solver, FlashFriction& f, std::size_t i) {
   Contributions& c = *f.hot.contributions;
-  const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
+  const std::size_t n = c.wavenumber.size();
   for (std::size_t j = 0; j < n; ++j) {
     c.dmu_dlnq[i * n + j] = solver.hysteresis_density(c.wavenumber[j]);
     f.temperature_profile[i * n + j] = solver.temperature_at(c.wavenumber[j]);
   }
-  const double whole = f.hot.hysteresis[i];
-  if (whole == 0) return;
-  for (const auto& [lower, upper, hysteresis] : solver.shares()) {
-    const double w = f.hot.velocity[i] * std::sqrt(lower * upper);
-    const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
-    const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
-    c.decade_share[i * m + decade] += hysteresis / whole;
-  }
+  if (const double whole = f.hot.hysteresis[i]; whole > 0) add_decades(c, i, f.hot.velocity[i], whole, solver.shares());
 }
 
 /// The contact of the scan with each wave at its temperature T(q), which is the theory's.
@@ -171,11 +164,11 @@ FlashFriction friction(const Spectrum& given, const Rubber& rubber, const Temper
   const HeatScene scene{scan.spectrum(), kept.get(), rubber, shift, heating, scan.model(), q_m};
   f.parts_error.assign(n, 0.0);
   const std::vector<std::size_t> order = by_curve(pressure, velocity, temperature);
-  constexpr std::size_t block = 64;  // begins without a guess: the numbers do not depend on the threads
-  const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
+  const unsigned workers = workers_for(n, threads);
   std::vector<HeatNotes> notes(workers);
   std::vector<std::optional<FlashSolver>> solvers(workers);
-  in_blocks(workers, n, block, [&](unsigned worker, std::size_t begin, std::size_t end) {
+  // a block begins without a guess: the numbers do not depend on the threads
+  in_blocks(workers, n, points_a_block, [&](unsigned worker, std::size_t begin, std::size_t end) {
     if (!solvers[worker]) solvers[worker].emplace(scene, branch);
     FlashSolver& solve = *solvers[worker];
     for (std::size_t k = begin; k < end; ++k) {

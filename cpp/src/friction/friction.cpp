@@ -25,6 +25,7 @@
 #include "friction/scan_friction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"
+#include "numerics/rounding.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/table_surface.hpp"
 
@@ -35,9 +36,9 @@ namespace {
 /// Powers of ten that enclose every v q [rad/s].
 std::vector<double> decades(double lowest, double highest) {
   std::vector<double> edges;
-  for (int k = static_cast<int>(std::floor(std::log10(lowest) + 1e-9));; ++k) {
+  for (int k = static_cast<int>(std::floor(std::log10(lowest) + rounding_error));; ++k) {
     edges.push_back(std::pow(10.0, k));
-    if (edges.back() >= highest * (1 - 1e-9)) return edges;
+    if (!is_below(edges.back(), highest)) return edges;
   }
 }
 
@@ -150,16 +151,9 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
 }
 
 void PointSolver::add_contributions(Contributions& c, std::size_t i, double velocity) const {
-  const std::size_t n = c.wavenumber.size(), m = c.decade_edges.size() - 1;
+  const std::size_t n = c.wavenumber.size();
   for (std::size_t j = 0; j < n; ++j) c.dmu_dlnq[i * n + j] = solver_.hysteresis_density(c.wavenumber[j]);
-  const double whole = solver_.hysteresis().value;
-  if (whole == 0) return;
-  for (const auto& [lower, upper, hysteresis] : solver_.shares()) {
-    const double w = velocity * std::sqrt(lower * upper);
-    const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
-    const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
-    c.decade_share[i * m + decade] += hysteresis / whole;
-  }
+  if (const double whole = solver_.hysteresis().value; whole > 0) add_decades(c, i, velocity, whole, solver_.shares());
 }
 
 /// Points of one rubber: `order` are their indices, those of one velocity side by side.
@@ -255,12 +249,11 @@ Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const
   std::vector<Notes> notes;
   for (const auto& [rubber, order] : groups) {
     const Scene scene{spectrum, rubber, model, adhesion, kept.get(), stops};
-    constexpr std::size_t block = 100;  // points that are worth a thread of their own
     const std::size_t n = order.size(), first = notes.size();
-    const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(n / block, 1, threads));
+    const unsigned workers = workers_for(n, threads);
     notes.resize(first + workers, Notes(spectrum, rubber, correction));
     std::vector<std::optional<PointSolver>> solvers(workers);
-    in_blocks(workers, n, workers == 1 ? n : block, [&](unsigned worker, std::size_t begin, std::size_t end) {
+    in_blocks(workers, n, workers == 1 ? n : points_a_block, [&](unsigned worker, std::size_t begin, std::size_t end) {
       if (!solvers[worker]) solvers[worker].emplace(scene);
       solve_points(scene, *solvers[worker], std::span(order).subspan(begin, end - begin), f, notes[first + worker]);
     });
@@ -285,6 +278,17 @@ void check_points(const ContactModel& model, const std::optional<Adhesion>& adhe
 }
 
 }  // namespace
+
+void add_decades(Contributions& c, std::size_t i, double velocity, double whole,
+                 std::span<const ContactGrid::PanelSum> shares) {
+  const std::size_t m = c.decade_edges.size() - 1;
+  for (const auto& [lower, upper, hysteresis] : shares) {
+    const double w = velocity * std::sqrt(lower * upper);
+    const auto above = std::ranges::upper_bound(c.decade_edges, w) - c.decade_edges.begin();
+    const auto decade = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, m) - 1;
+    c.decade_share[i * m + decade] += hysteresis / whole;
+  }
+}
 
 double adhesion_per_share(const Adhesion& a, double pressure, double velocity) {
   const double decades = std::log10(velocity / a.reference_velocity);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "contact/theory/s_factor.hpp"
+#include "numerics/differences.hpp"
 
 namespace asperity {
 
@@ -49,8 +50,8 @@ void GradientChain::take_nayak() {
   const VectorXd m0 = c.cwiseQuotient(q.cwiseAbs2()), m4 = c.cwiseProduct(q.cwiseAbs2());
   nayak_ = m0 / m0.sum() + m4 / m4.sum() - 2 * c / c.sum();
   const double alpha = nayak_parameter(scene_.spectrum);
-  constexpr double step = 1e-4;
-  for (const double factor : {1 - step, 1 + step}) inside_.emplace_back(nayak_s(alpha * factor), scene_.model.form);
+  for (const double factor : {1 - difference_step, 1 + difference_step})
+    inside_.emplace_back(nayak_s(alpha * factor), scene_.model.form);
 }
 
 /// Over ln C of the nodes, by p_T and by Nayak's parameter too.
@@ -63,11 +64,10 @@ VectorXd GradientChain::by_roughness(const MuSlopes& mu, double by_end, const Sh
     result.head(n) += (-2 * mu.of.scale * shift.rms_height / (2 * square.sum())) * square;
   }
   if (!inside_.empty() && mu.by_area != 0 && mu.g > 0) {
-    constexpr double apart = 2e-4;  // of ln alpha
     result.head(n) +=
         mu.by_area *
         (contact_share(inside_[1](mu.g), scene_.model.form) - contact_share(inside_[0](mu.g), scene_.model.form)) /
-        apart * nayak_;
+        (2 * difference_step) * nayak_;
   }
   return result;
 }
@@ -169,11 +169,10 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
 
 /// Over the frequency at which p_T knows |E|.
 double GradientChain::by_frequency_of(const MuSlopes& mu, const ShiftGradient& shift) const {
-  constexpr double step = 1e-5;
   const double w = shift.velocity * shift.macro_wavenumber;
   const auto size = [&](double at) { return std::abs(modulus(scene_.rubber, at)); };
-  const double lower = known_ ? std::fmax(w * (1 - step), known_->lowest) : w * (1 - step),
-               upper = known_ ? std::fmin(w * (1 + step), known_->highest) : w * (1 + step);
+  const auto held = [&](double at) { return known_ ? std::clamp(at, known_->lowest, known_->highest) : at; };
+  const double lower = held(w * (1 - difference_step)), upper = held(w * (1 + difference_step));
   return 2 * mu.of.scale * shift.pressure * std::log(size(upper) / size(lower)) / std::log(upper / lower);
 }
 

@@ -9,6 +9,7 @@
 
 #include "contact/correction.hpp"
 #include "friction/before_heating.hpp"
+#include "numerics/differences.hpp"
 
 namespace asperity {
 
@@ -27,8 +28,7 @@ ContactGridOptions grid_options(const GradientScene& scene, std::size_t number, 
   if (has_own_rule(scene.model.correction)) result.window = &window;
   const Excitation& waves = scene.waves;
   const auto* const table = std::get_if<TabulatedSpectrum>(&scene.spectrum);
-  constexpr std::size_t few = 8;
-  if (table && table->wavenumber().size() >= few) {
+  if (table && table->wavenumber().size() >= RoughnessPieces::least_rows) {
     if (!waves.kinks().empty())
       cut = std::make_unique<RoughnessPieces>(scene.surface, number, waves.kinks(), harmonics_of(scene.spectrum));
     result.pieces = cut ? cut.get() : &roughness_pieces(*table, number);
@@ -55,14 +55,13 @@ ShiftGradient shift_gradient(const GradientScene& scene, double pressure, double
   result.velocity = velocity;
   result.rate = rate;
   if (!shifts(correction) || !std::isfinite(result.p)) return result;
-  constexpr double step = 1e-5;
   const Correction whole = with_numbers_of(scene.spectrum, correction);
   const std::vector<std::string> names = correction_arguments(whole), own = correction_arguments(correction);
   for (std::size_t k = 0; k < names.size(); ++k) {
     const auto changed = [&](double factor) {  // upwards, as z_max may be that of a peak
       return std::log(shift(changed_correction(whole, k, factor), pressure) / result.p);
     };
-    const double slope = (4 * changed(1 + step) - changed(1 + 2 * step)) / (2 * step);
+    const double slope = (4 * changed(1 + difference_step) - changed(1 + 2 * difference_step)) / (2 * difference_step);
     if (std::ranges::find(own, names[k]) != own.end())
       result.correction.push_back(slope);
     else
@@ -71,8 +70,7 @@ ShiftGradient shift_gradient(const GradientScene& scene, double pressure, double
   if (!macro) return result;
   result.macro_wavenumber = *macro;
   result.along = along;
-  result.pressure =
-      std::log(shift(correction, pressure * (1 + step)) / shift(correction, pressure * (1 - step))) / (2 * step);
+  result.pressure = slope_at_0([&](double t) { return std::log(shift(correction, pressure * (1 + t))); });
   return result;
 }
 

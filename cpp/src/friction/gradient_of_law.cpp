@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "friction/gradient_chain.hpp"
+#include "numerics/differences.hpp"
 #include "spectrum/harmonics.hpp"
 #include "spectrum/segments.hpp"
 
@@ -21,8 +22,6 @@ std::vector<std::string> law_arguments(const SelfAffineSpectrum& law) {
 
 namespace {
 
-constexpr double law_step = 1e-4;
-
 /// The law with one of its numbers, in the order of its slopes, times a factor.
 SelfAffineSpectrum changed_law(const SelfAffineSpectrum& law, std::size_t number, double factor) {
   SelfAffineSpectrum result = law;
@@ -39,7 +38,7 @@ std::vector<double> slopes_of_top(const SelfAffineSpectrum& law) {
     return std::log(density_at_rolloff(of) / (of.rolloff ? 1 : mean_of_shape(of)));
   };
   for (std::size_t k = 1; k + 1 < result.size(); ++k)
-    if (k != 2 && k != 3) result[k] = (top(k, 1 + law_step) - top(k, 1 - law_step)) / (2 * law_step);
+    if (k != 2 && k != 3) result[k] = slope_at_0([&](double t) { return top(k, 1 + t); });
   return result;
 }
 
@@ -63,7 +62,6 @@ void GradientChain::take_law() {
 /// By differences of the shape, at a kept rms height. Nodes of q_m stand for a stretch, as in RoughnessRows; edges have
 /// no rings of their own, but those of the band.
 void GradientChain::take_directional_law() {
-  constexpr double step = law_step;
   constexpr int parts = 32;  // of a stretch
   const SelfAffineSpectrum& law = *scene_.law;
   const auto count = static_cast<Index>(scene_.harmonics) + 1, n = static_cast<Index>(grid_.size()),
@@ -90,13 +88,14 @@ void GradientChain::take_directional_law() {
   const auto here = rows_of(law);
   const auto add = [&] {
     const std::size_t number = law_rings_.size();
-    const auto lower = rows_of(changed_law(law, number, 1 - step)), upper = rows_of(changed_law(law, number, 1 + step));
-    VectorXd log_c = (upper.col(0).array() / lower.col(0).array()).log() / (2 * step);
+    const auto lower = rows_of(changed_law(law, number, 1 - difference_step)),
+               upper = rows_of(changed_law(law, number, 1 + difference_step));
+    VectorXd log_c = (upper.col(0).array() / lower.col(0).array()).log() / (2 * difference_step);
     log_c.array() += scene_.of_top[law_rings_.size()];
     VectorXd of_c = VectorXd::Zero(n);
     Eigen::MatrixXd of_rings = Eigen::MatrixXd::Zero(n, count);
     of_c.head(band) = log_c.head(band);
-    const auto change_of = [&](Index k) { return turned((upper.row(k) - lower.row(k)) / (2 * step)); };
+    const auto change_of = [&](Index k) { return turned((upper.row(k) - lower.row(k)) / (2 * difference_step)); };
     for (Index k = 0; k < band; ++k) of_rings.row(k) = change_of(k);
     Index k = band;
     for (const ContactGrid::Stretch& stretch : grid_.macro_stretches()) {

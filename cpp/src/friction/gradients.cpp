@@ -193,22 +193,22 @@ Gradients solve(const Spectrum& spectrum, const Rubber& rubber, const ContactMod
   }
   Table table(spectrum, rubber, model, adhesion, slowest, fastest);
   table.begin(size, with_temperature);
-  constexpr std::size_t block = 20;
-  const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(size / block, 1, threads));
+  const unsigned workers = workers_for(size, threads);
   std::vector<std::deque<GradientLevel>> levels(workers);
-  in_blocks(workers, size, workers == 1 ? size : block, [&](unsigned worker, std::size_t begin, std::size_t end) {
-    if (levels[worker].empty())
-      for (const auto number : {std::size_t{0}, std::size_t{1}}) levels[worker].emplace_back(table.scene(), number);
-    for (std::size_t i = begin; i < end; ++i) {
-      heed();
-      const GradientPoint point = point_of(i);
-      const ShiftGradient shift =
-          shift_gradient(table.scene(), point.pressure, point.velocity * point.a_T, point.shift_rate.value_or(0));
-      if (!std::isfinite(shift.p)) continue;  // without contact
-      at_point(point.pressure, point.velocity,
-               [&] { table.put(i, levels[worker][0](point, shift), levels[worker][1](point, shift)); });
-    }
-  });
+  in_blocks(
+      workers, size, workers == 1 ? size : points_a_block, [&](unsigned worker, std::size_t begin, std::size_t end) {
+        if (levels[worker].empty())
+          for (const auto number : {std::size_t{0}, std::size_t{1}}) levels[worker].emplace_back(table.scene(), number);
+        for (std::size_t i = begin; i < end; ++i) {
+          heed();
+          const GradientPoint point = point_of(i);
+          const ShiftGradient shift =
+              shift_gradient(table.scene(), point.pressure, point.velocity * point.a_T, point.shift_rate.value_or(0));
+          if (!std::isfinite(shift.p)) continue;  // without contact
+          at_point(point.pressure, point.velocity,
+                   [&] { table.put(i, levels[worker][0](point, shift), levels[worker][1](point, shift)); });
+        }
+      });
   return table.take();
 }
 
@@ -376,10 +376,9 @@ Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const Temper
   const Spectrum& solved = table.scene().spectrum;
   const HeatScene heat{solved, table.scene().surface, rubber, shift, heating, model, macro_wavenumber(heating, solved)};
   const std::vector<std::size_t> order = by_curve(pressure, velocity, temperature);
-  constexpr std::size_t block = 64;
-  const auto workers = static_cast<unsigned>(std::clamp<std::size_t>(order.size() / block, 1, threads));
+  const unsigned workers = workers_for(order.size(), threads);
   std::vector<std::optional<HotGradient>> solvers(workers);
-  in_blocks(workers, order.size(), block, [&](unsigned worker, std::size_t begin, std::size_t end) {
+  in_blocks(workers, order.size(), points_a_block, [&](unsigned worker, std::size_t begin, std::size_t end) {
     if (!solvers[worker]) solvers[worker].emplace(table.scene(), heat, branch);
     for (std::size_t k = begin; k < end; ++k) {
       heed();

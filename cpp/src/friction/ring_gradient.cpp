@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contact/theory/partial_contact_rule.hpp"
+#include "numerics/differences.hpp"
 
 namespace asperity {
 
@@ -50,12 +51,11 @@ void RingGradient::spread(double by_edges, MatrixXd& by_rings, VectorXd& by_node
   by_rings.middleRows(first, count).setZero();
   const Rings& mean = directions_.mean();
   const double along = mean.along[0], across = mean.across[0];
-  constexpr double step = 1e-6;
   const auto edges = [&](double more_along, double more_across) {
     return std::log(partial_contact::crossed_edges(along + more_along, across + more_across));
   };
-  by_mean[0] += by_edges * (edges(step, 0) - edges(-step, 0)) / (2 * step);
-  by_mean[columns() - 1] += by_edges * (edges(0, step) - edges(0, -step)) / (2 * step);
+  by_mean[0] += by_edges * slope_at_0([&](double t) { return edges(t, 0); });
+  by_mean[columns() - 1] += by_edges * slope_at_0([&](double t) { return edges(0, t); });
   const VectorXd share = grid_.weight() / grid_.weight().sum();
   const Eigen::RowVectorXd at_mean = share.transpose() * values_.topRows(band);
   by_rings.topRows(band) += share * by_mean;

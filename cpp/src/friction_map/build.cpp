@@ -95,9 +95,8 @@ void check(const MapFrame& frame, const std::vector<unsigned char>& file, const 
   FrictionMap map;
   std::string why;
   if (!map.read(file.data(), file.size(), why)) throw Error("the map that was just made " + why);
-  constexpr double share = 1.0 / 20;  // of the certified error, for the solver
-  // with heat always the same ones together, as each begins at the one before
-  const MapFrame solver = frame.with_solver_rtol(std::fmax(frame.solver_rtol(), share * certificate.max_error));
+  // the solver is one step more; with heat always the same ones together, as each begins at the one before
+  const MapFrame solver = frame.with_solver_rtol(std::fmax(frame.solver_rtol(), step_share * certificate.max_error));
   const std::size_t block = map.info().heat ? 6'400 : 20'000 * std::size_t{threads};
   Check points(solver, map);
   for (std::size_t done = 0; done < request.checked;) {
@@ -239,10 +238,9 @@ std::vector<double> shifts(const TemperatureShift& shift, const std::vector<doub
 /// The velocities at which the rubber is at one temperature as it is at all of these at those of the box.
 std::array<double, 2> shifted_box(std::array<double, 2> velocity, const std::vector<double>& shift, double step) {
   double lowest = shift[0], highest = shift[0];
-  constexpr int parts = 16;  // of a step of the temperature
   for (std::size_t i = 0; i + 2 < shift.size(); i += 2)
-    for (int k = 0; k <= parts; ++k) {
-      const double t = static_cast<double>(k) / parts;
+    for (int k = 0; k <= curve_steps; ++k) {
+      const double t = static_cast<double>(k) / curve_steps;
       const double found = hermite(shift[i], shift[i + 1], shift[i + 2], shift[i + 3], step, t).value;
       // not std::fmin, of whose vectors GCC 12 for aarch64 makes an internal error
       lowest = std::min(lowest, found);

@@ -9,13 +9,12 @@
 #include "numerics/arguments.hpp"
 #include "numerics/chebyshev.hpp"
 #include "numerics/interpolation.hpp"
+#include "numerics/rounding.hpp"
 
 namespace asperity {
 
 namespace {
 
-/// An error of s(x) moves the kink at a cut by as much as s is off.
-constexpr double offset_share = 0.01;
 constexpr std::size_t most_intervals = 16384;
 
 /// States of the Greenwood-Williamson correction: none, beyond the theory's range, within it, full.
@@ -71,15 +70,13 @@ double MapFrame::log_modulus(double x) const {
 
 bool MapFrame::touches_box(const MapPlace& corner, const MapPlace& size) const {
   if (offset_.empty()) return true;
-  constexpr double margin = 1e-9;
-  constexpr int steps = 16;
   double lowest = log_modulus_offset(corner.x), highest = lowest;
-  for (int i = 1; i <= steps; ++i) {
-    const double s = log_modulus_offset(corner.x + i * (size.x / steps));
+  for (int i = 1; i <= curve_steps; ++i) {
+    const double s = log_modulus_offset(corner.x + i * (size.x / curve_steps));
     lowest = std::fmin(lowest, s);
     highest = std::fmax(highest, s);
   }
-  const double slack = (highest - lowest) / steps + margin;
+  const double slack = (highest - lowest) / curve_steps + rounding_error;
   return corner.z + size.z + highest >= y_lo_ - slack && corner.z + lowest <= y_hi_ + slack;
 }
 
@@ -102,7 +99,7 @@ void MapFrame::make_log_modulus_offset() {
       const double x = x_lo_ + (static_cast<double>(i) + 0.5) * h / 4;
       error = std::fmax(error, std::fabs(log_modulus_offset(x) - exact(x)));
     }
-    if (error <= offset_share * rtol_ || intervals == most_intervals) return;
+    if (error <= step_share * rtol_ || intervals == most_intervals) return;
   }
 }
 

@@ -10,7 +10,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double share = 1.0 / 20;    // of rtol
 constexpr double longest = 2;         // of a patch to begin with, in ln v and in ln p
 constexpr double most_in_a_row = 64;  // to begin with: of a box of hundreds of decades most is smooth
 constexpr std::size_t test_z = 2;     // random z at a random x between every two points
@@ -19,7 +18,7 @@ constexpr std::size_t test_z = 2;     // random z at a random x between every tw
 
 MapPatches::MapPatches(const MapFrame& frame, double rtol, unsigned threads,
                        const std::function<void(double)>& progress)
-    : frame_(frame), tolerance_(std::fmax(share * rtol, 2 * frame.solver_rtol())), threads_(threads) {
+    : frame_(frame), tolerance_(std::fmax(step_share * rtol, 2 * frame.solver_rtol())), threads_(threads) {
   if (frame.slant()) {
     for (std::size_t k = 0; k + 1 < frame.cuts().size(); ++k) add_strip({frame.cuts()[k], frame.cuts()[k + 1]});
   } else if (frame.load_shift().any()) {  // loads of the box, and of cells that stand out of it

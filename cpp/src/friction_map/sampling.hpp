@@ -13,8 +13,15 @@
 
 #include "asperity/build_friction_map.hpp"
 #include "numerics/interpolation.hpp"
+#include "numerics/rounding.hpp"
 
 namespace asperity {
+
+/// Of rtol, what each of the steps from the solver to cells may be off by.
+inline constexpr double step_share = 1.0 / 20;
+
+/// Steps along a curve between which its ends are looked for.
+inline constexpr int curve_steps = 16;
 
 /// Polynomials of one variable on intervals, halved until each keeps a tolerance; the intervals never cross a cut,
 /// where the function has a kink.
@@ -82,7 +89,7 @@ class Slant {
     const double least = x_[0] + sides_[0], most = x_[1] + sides_[1];
     const double way = std::fmin(x_[1] - x_[0], sides_[1] - sides_[0]);
     // of a box that is as long as wide, the two are one
-    const double between = std::fmax(most - way, (least + way) + 1e-9 * way);
+    const double between = std::fmax(most - way, least + way * (1 + rounding_error));
     return {least, least + way, between, most};
   }
 

@@ -14,12 +14,9 @@ namespace asperity {
 
 namespace {
 
-constexpr double share = 1.0 / 20;       // of rtol, for the polynomials over heights
-constexpr double node_share = 1.0 / 10;  // for the cubics between nodes
-constexpr int deepest = 6;               // of 64 intervals between two rows of a table of shift factors
+constexpr int deepest = 6;  // of 64 intervals between two rows of a table of shift factors
 constexpr std::size_t most_steps = 256;
-constexpr std::size_t tested = 64;   // random points of an interval
-constexpr std::size_t places = 100;  // random places at which nodes are chosen
+constexpr std::size_t tested = 100;  // random points of an interval, and places at which nodes are chosen
 
 }  // namespace
 
@@ -65,7 +62,7 @@ bool MapSlices::is_smooth(double lower, double upper) const {
       for (const std::size_t m : {n - 2, n - 1}) {
         double coefficient = 0;
         for (std::size_t i = 0; i < n; ++i) coefficient += points.transform[m][i] * found[i * a_side * a_side + k].f[f];
-        if (std::fabs(coefficient) > share * rtol_) return false;
+        if (std::fabs(coefficient) > step_share * rtol_) return false;
       }
   return true;
 }
@@ -79,7 +76,7 @@ void MapSlices::add(double lower, double upper, int depth) {
   Interval interval{lower, upper, 0, {}, {}};
   make(interval);
   interval.error = 2 * test(interval);
-  if (interval.error > 2 * share * rtol_ && depth < deepest) return halve();
+  if (interval.error > 2 * step_share * rtol_ && depth < deepest) return halve();
   intervals_.push_back(std::move(interval));
   tell(upper);
 }
@@ -209,7 +206,7 @@ void MapSlices::set_nodes(std::size_t steps) {
 /// The largest error of the cubics in the middles between nodes, at random places.
 double MapSlices::error_between_nodes() {
   double largest = 0;
-  for (std::size_t k = 0; k < places; ++k) {
+  for (std::size_t k = 0; k < tested; ++k) {
     heed();
     const MapPlace place = random_place();
     const std::vector<MapSlopes> planes = slopes(frame_.band(place.z), place);
@@ -228,7 +225,8 @@ double MapSlices::error_between_nodes() {
 void MapSlices::choose_nodes() {
   for (std::size_t steps = 2 * intervals_.size();;) {
     set_nodes(steps);
-    const double error = std::fmax(error_between_nodes(), frame_.error_of_shift(nodes_)), allowed = node_share * rtol_;
+    const double error = std::fmax(error_between_nodes(), frame_.error_of_shift(nodes_)),
+                 allowed = 2 * step_share * rtol_;
     if (error <= allowed) return;
     const double factor = std::clamp(1.05 * std::pow(error / allowed, 0.25), 1.05, 4.0);
     const auto more = static_cast<std::size_t>(std::ceil(static_cast<double>(steps) * factor));

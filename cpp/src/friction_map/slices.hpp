@@ -21,6 +21,8 @@ struct MapSlopes {
   std::array<double, 2> f, x, z, xz;
 };
 
+inline constexpr std::size_t map_points = 12;  // of a polynomial in one variable
+
 /// Patches of 12 x 12 points with the polynomial through them over ln v and the load ln(p p_T), p_T being that of a
 /// Greenwood-Williamson correction: without it there are no kinks, and of the modulus at a single frequency none is
 /// passed on. They are halved in either until they keep a twentieth of rtol,
@@ -43,7 +45,7 @@ class MapPatches {
   [[nodiscard]] MapSlopes slopes(std::uint32_t band, const MapPlace& place);
 
  private:
-  static constexpr std::size_t n = 12;
+  static constexpr std::size_t n = map_points;
   using Vector = Eigen::Matrix<double, n, 1>;
   using Matrix = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
   struct Patch {
@@ -104,7 +106,7 @@ class MapSlices {
   [[nodiscard]] std::vector<MapSample> column(const MapPlace& place);
 
  private:
-  static constexpr std::size_t n = 12;  // points an interval
+  static constexpr std::size_t n = map_points;
   using Weights = std::array<double, n>;
   struct Interval {
     double lower, upper, error = 0;

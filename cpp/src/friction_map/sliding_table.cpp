@@ -20,7 +20,6 @@ constexpr double most_columns = 65, most_rows = 25;
 constexpr std::size_t most_nodes = 20'000, most_in_row = 1'025;  // which halving may make
 constexpr double allowed = 0.01;                                 // of mu while the rubber heats up
 constexpr std::size_t tested = 460;                              // random points: 0.99^460 is less than 1 %
-constexpr double negligible = 0.1;                               // of rtol, beside which nobody notices it
 constexpr double longest = 3;                                    // distance slid there, over s0
 
 std::size_t points(double range, double step, double most) {
@@ -129,7 +128,7 @@ double error_of(const SlidingTable& table, const Scene& scene) {
   MapPoints of_wanted;
   for (std::size_t i = 0; i < tested; ++i) {
     const double change = changed(f, i);
-    if (change <= negligible * request.rtol) {
+    if (change <= 2 * step_share * request.rtol) {
       largest = std::fmax(largest, change);
       continue;
     }

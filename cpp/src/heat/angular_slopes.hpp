@@ -7,6 +7,7 @@
 
 #include "contact/grid/excitation.hpp"
 #include "contact/grid/panel_slopes.hpp"
+#include "numerics/differences.hpp"
 
 namespace asperity {
 
@@ -48,9 +49,8 @@ class AngularSlopes {
   void operator()(FeltModulus& felt, const PanelSlopes* panels, double velocity);
 
  private:
-  /// The step is that of differences of a curve, in ln w: by default errors of 1e-9 by it and 1e-8 by the table's
-  /// 1e-12.
-  void solve(std::span<const double> w, bool sloped, AngularColumns& result, double step = 1e-4);
+  /// The step is that of differences of a curve, in ln w.
+  void solve(std::span<const double> w, bool sloped, AngularColumns& result, double step = difference_step);
   void of_series(std::span<const double> w, bool sloped, AngularColumns& result);
   void of_curve(const MasterCurve& curve, std::span<const double> w, bool sloped, double step, AngularColumns& result);
   void on_panels(const MasterCurve& curve, AngularColumns& result);

@@ -2,7 +2,6 @@
 // below -1, and where one is above 0 there may be several solutions, which the march finds.
 #include "heat/fixed_point.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/rounding.hpp"
 
 namespace asperity {
 
@@ -21,12 +21,28 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The eigenvalue of the largest size.
-double dominant_eigenvalue(const MatrixXd& matrix) {
-  double largest = 0;
-  for (const auto& value : matrix.eigenvalues())
-    if (std::abs(value) > std::fabs(largest)) largest = value.real();
-  return largest;
+/// The eigenvalue of the largest size, of a complex pair its real part. What squaring leaves of a matrix has the
+/// columns of that eigenvalue alone, or of the two of one size, between which A is a matrix of 2 x 2.
+double dominant_eigenvalue(const MatrixXd& a) {
+  MatrixXd power = a;
+  for (int i = 0; i < 16; ++i) {
+    const double size = power.norm();
+    if (!(size > 0)) return 0;
+    power /= size;
+    power *= power;
+  }
+  Index column = 0;
+  const double longest = power.colwise().norm().maxCoeff(&column);
+  if (!(longest > 0)) return 0;
+  const VectorXd first = power.col(column) / longest;
+  const double alone = first.dot(a * first);
+  power -= first * (first.transpose() * power).eval();
+  const double rest = power.colwise().norm().maxCoeff(&column);
+  if (!is_above(rest, rounding_error * longest)) return alone;
+  const VectorXd second = power.col(column) / rest;
+  const double other = second.dot(a * second), mean = (alone + other) / 2,
+               square = std::pow((alone - other) / 2, 2) + first.dot(a * second) * second.dot(a * first);
+  return square > 0 ? mean + std::copysign(std::sqrt(square), mean) : mean;
 }
 
 double size_of(const VectorXd& residual, const VectorXd& theta) {
@@ -36,7 +52,6 @@ double size_of(const VectorXd& residual, const VectorXd& theta) {
 /// Newton's steps, each of which must lower the residual, with the slopes of an earlier pass as long as they do, until
 /// the next one is small: near runaway it is the residual magnified by 1 / (1 - gain). The map is left at the solution.
 std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, int passes, Tangent& tangent) {
-  constexpr double enough = 0.15;  // of the residual, which slopes of an earlier pass leave at most
   map(theta);
   tangent.take(map);
   bool fresh = true, stale = false;
@@ -64,7 +79,7 @@ std::optional<VectorXd> newton(FlashMap& map, VectorXd theta, double tolerance, 
         theta = tried;
         residual = left;
         if (left_size >= size && left_size < 1e-12) return theta;
-        stale = left_size > enough * size;
+        stale = left_size > March::slopes_serve * size;
         fresh = false;
         size = left_size;
       }
@@ -141,14 +156,13 @@ void Tangent::take(FlashMap& map) {
 
 FixedPoint solve_fixed_point(FlashMap& map, const HeatPoint& point, const VectorXd& guess,
                              std::optional<double> only_rise, Branch branch, double tolerance, Tangent& tangent) {
-  constexpr int passes = 12;
   if (only_rise) {
     std::optional<VectorXd> theta;
-    if (guess.size() != 0) theta = newton(map, guess, tolerance, passes, tangent);
+    if (guess.size() != 0) theta = newton(map, guess, tolerance, March::most_passes, tangent);
     if (!theta) {
       map(VectorXd::Constant(map.rise_size(), *only_rise));
       const VectorXd start = *only_rise / map.rise()[map.rise_size() - 1] * map.rise();
-      theta = newton(map, start, tolerance, passes, tangent);
+      theta = newton(map, start, tolerance, March::most_passes, tangent);
     }
     if (theta && !has_others(*theta, tangent)) return finished(map, *theta, tangent);
   }
@@ -166,8 +180,7 @@ FixedPoint polish(FlashMap& map, const VectorXd& theta, const Tangent& tangent, 
   FixedPoint found;
   found.theta = (up * theta).cwiseMax(0.0);
   double before = std::numeric_limits<double>::infinity();
-  constexpr int passes = 12;
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < March::most_passes; ++pass) {
     map(found.theta);
     found.residual = map.rise() - found.theta;
     const VectorXd coarse = down * found.residual, step = tangent.lu.solve(coarse);
@@ -181,7 +194,7 @@ FixedPoint polish(FlashMap& map, const VectorXd& theta, const Tangent& tangent, 
     found.theta = (found.theta + whole).cwiseMax(0.0);
   }
   Tangent own;
-  const std::optional<VectorXd> again = newton(map, (up * theta).cwiseMax(0.0), tolerance, passes, own);
+  const std::optional<VectorXd> again = newton(map, (up * theta).cwiseMax(0.0), tolerance, March::most_passes, own);
   if (!again) throw NotConverged("the flash temperature: Newton's steps do not end");
   return finished(map, *again, own);
 }
@@ -199,7 +212,7 @@ double gain_of(FlashMap& map, const Tangent& tangent, double tolerance) {
     left /= left_size;
     const double before = value;
     value = left.dot(j * right) / left.dot(right);
-    if (i > 2 && std::fabs(value - before) <= 1e-9 * std::fabs(value)) break;
+    if (i > 2 && std::fabs(value - before) <= rounding_error * std::fabs(value)) break;
     if (i == 39) return dominant_eigenvalue(map.jacobian());
   }
   for (int i = 0; i < 20; ++i) {

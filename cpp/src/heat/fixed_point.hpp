@@ -36,6 +36,9 @@ class March {
   /// Whether a profile lies between two places, as far as these are known.
   [[nodiscard]] static bool is_between(const Place& low, const Place& high, const Eigen::VectorXd& theta);
   static constexpr double exactly = 1e-12;  // of the largest rise
+  /// Slopes of another place serve while no step by them leaves more of the residual.
+  static constexpr double slopes_serve = 0.15;
+  static constexpr int most_passes = 12;  // of Newton's steps
 
  private:
   std::optional<Place> next();

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "contact/correction.hpp"
+#include "numerics/differences.hpp"
 #include "rubber/loss_part.hpp"
 
 namespace asperity {
@@ -246,12 +247,10 @@ FeltModulus FlashMap::felt() {
   const ContactGrid::Beyond& beyond = grid_.beyond();
   FeltModulus result{reduced_, {}, {}, rate_, VectorXd::Ones(rate_.size())};
   angular_(result);
-  constexpr double step = 1e-4;
   for (std::size_t j = beyond.first; beyond.end && j <= beyond.first + beyond.count; ++j) {
     const double q = grid_.wavenumber()[j];
-    const RowVectorXd row = grid_.row_at(q * std::exp(step)) - grid_.row_at(q * std::exp(-step));
     const auto at = static_cast<Index>(j);
-    result.along[at] += rate_[at] * row.dot(theta_) / (2 * step);
+    result.along[at] += rate_[at] * slope_at_0([&](double t) { return grid_.row_at(q * std::exp(t)).dot(theta_); });
   }
   return result;
 }
@@ -259,9 +258,8 @@ FeltModulus FlashMap::felt() {
 double FlashMap::also_felt_along() const {
   const std::optional<double> q = asperity_wavenumber(scene_.model.correction, scene_.spectrum);
   if (!q || grid_.lone_point()) return 0;
-  constexpr double step = 1e-4;
-  const double lower = std::fmax(*q * (1 - step), std::exp(grid_.lowest())),
-               upper = std::fmin(*q * (1 + step), std::exp(grid_.highest()));
+  const double lower = std::fmax(*q * (1 - difference_step), std::exp(grid_.lowest())),
+               upper = std::fmin(*q * (1 + difference_step), std::exp(grid_.highest()));
   return std::numbers::ln10 * also_felt_.slope * (grid_.row_at(upper) - grid_.row_at(lower)).dot(theta_) /
          std::log(upper / lower);
 }
@@ -310,9 +308,8 @@ FlashMap::Adjoint FlashMap::adjoint() {
   if (!scene_.heating.macro_area) number.by_macro = -(result.depth + result.surface) / macro_area_;
   result.by_area = number.by_area;
   contact_->gradient(number, result.of);
-  constexpr double step = 1e-4;
-  result.length = (heat_at_length(lambda, step) - heat_at_length(lambda, -step)) / (2 * step);
-  if (grid_.beyond().count > 0) result.end = (edges_along(lambda, step) - edges_along(lambda, -step)) / (2 * step);
+  result.length = slope_at_0([&](double t) { return heat_at_length(lambda, t); });
+  if (grid_.beyond().count > 0) result.end = slope_at_0([&](double t) { return edges_along(lambda, t); });
   if (number.by_macro != 0) {
     const double q = scene_.macro_wavenumber, square = q * q, softer = mu_factor_ / (4 * point_.pressure);
     const auto segment = std::ranges::lower_bound(scene_.surface, q, {}, &Segment::b);

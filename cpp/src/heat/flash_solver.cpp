@@ -19,20 +19,16 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int first_digits = 4, digits_a_level = 2;
 constexpr std::size_t levels = 7;  // up to 16 digits
 /// Rows of a measured modulus lie anywhere in panels, and levels tell what they miss of these only where they differ:
 /// so panels are halved from level to level, and where rows scatter more often.
 constexpr std::size_t levels_with_rows = 11;
 /// From which on panels are not halved once more: matrices of twice as many nodes take a quarter of a gigabyte.
 constexpr std::size_t most_nodes = 30'000;
-/// Tables of fewer rows are as quick on panels, and lesser tolerances not reached on pieces.
-constexpr std::size_t pieces_rows = 16;
+/// Lesser tolerances are not reached on pieces.
 constexpr double pieces_rtol = 1e-7;
 /// With factors of strain G at q_m is known to some 1e-7 alone, where rings scatter.
 constexpr double pieces_rtol_with_strain = 1e-6;
-
-int digits_of(std::size_t level) { return first_digits + digits_a_level * static_cast<int>(level); }
 
 /// Of the tolerance, at least. Two levels may be off alike by chance, then differ by less than either is off, and
 /// nothing of the two tells it. Only a third level would, at as much cost as both. So this floor is measured, not
@@ -118,7 +114,7 @@ FlashSolver::FlashSolver(const HeatScene& scene, Branch branch)
   if (has_own_rule(scene.model.correction)) window_.emplace(scene.surface);
   const double digits = -std::log10(scene.model.rtol);
   first_level_ = 1;  // differences of coarser grids are small by chance where a front is thin
-  while (first_level_ + 2 < levels && digits_of(first_level_ + 1) < digits + 1) ++first_level_;
+  while (first_level_ + 2 < levels && HeatGrid::digits(first_level_ + 1) < digits + 1) ++first_level_;
   level_ = first_level_;
 }
 
@@ -149,7 +145,7 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
     const auto* const table = std::get_if<TabulatedSpectrum>(&scene_.spectrum);
     const bool by_pieces = table && stops_.empty() &&
                            scene_.model.rtol >= (kinks_.empty() ? pieces_rtol : pieces_rtol_with_strain) &&
-                           table->wavenumber().size() >= pieces_rows;
+                           table->wavenumber().size() >= RoughnessPieces::least_rows;
     if (by_pieces && level <= (has_rows() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels)) {
       if (!kinks_.empty())
         made.cut = std::make_unique<RoughnessPieces>(scene_.surface, level - 1, kinks_, harmonics_of(scene_.spectrum));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/rounding.hpp"
+
 namespace asperity {
 
 using std::numbers::pi;
@@ -15,11 +17,8 @@ HeatGrid::HeatGrid(std::span<const Segment> surface, const ContactGridOptions& o
     : ContactGrid(surface, options) {
   const double length = highest() - lowest(), off = 2 * pi / length;
   const double falling = std::log(off + std::sqrt(1 + off * off));
-  constexpr double most_digits = 16;  // of a double
-  const double digits = std::fmin(first_digits + 2 * static_cast<double>(options.level), most_digits);
-  const auto n = static_cast<std::size_t>(std::ceil(digits * std::numbers::ln10 / falling)) + 4;
-  constexpr double rounding = 1e-12;
-  if (also && (std::log(*also) < lowest() - rounding || std::log(*also) > highest() + rounding)) {
+  const auto n = static_cast<std::size_t>(std::ceil(digits(options.level) * std::numbers::ln10 / falling)) + 4;
+  if (also && !is_within(*also, std::exp(lowest()), std::exp(highest()))) {
     points_.push_back(*also);
     first_point_ = 1;
   }

@@ -14,6 +14,8 @@ namespace asperity {
 /// within pi of the real axis.
 class HeatGrid : public ContactGrid {
  public:
+  /// Of a level, up to those of a double.
+  static constexpr int digits(std::size_t level) { return std::min(first_digits + 2 * static_cast<int>(level), 16); }
   /// `also_felt`: a temperature point that may lie outside of the band [1/m].
   HeatGrid(std::span<const Segment> surface, const ContactGridOptions& options, const std::optional<double>& also_felt);
 

@@ -151,8 +151,8 @@ double sliding_length(const HeatScene& scene, const HeatPoint& point) {
     rise.push_back(at_end.dot(theta));
   }
   const double step = reach / static_cast<double>(steps_a_length);
-  constexpr double told = 1e-6;  // of mu
-  return distance_to_last(std::fabs(mu.front() - mu.back()) > told * mu.front() ? mu : rise, step);
+  const double least = scene.model.rtol * mu.front();
+  return distance_to_last(std::fabs(mu.front() - mu.back()) > least ? mu : rise, step);
 }
 
 }  // namespace asperity

@@ -5,6 +5,7 @@
 
 #include "contact/correction.hpp"
 #include "heat/flash_map.hpp"
+#include "numerics/differences.hpp"
 
 namespace asperity {
 
@@ -38,8 +39,7 @@ HotShift hot_shift(const Correction& correction, const Spectrum& spectrum, const
   const std::optional<FrequencyRange> known = known_range(rubber);
   const auto inside = [&](double v) { return known ? std::clamp(v, known->lowest / *q0, known->highest / *q0) : v; };
   result.shift = at_velocity(inside(reduced));
-  constexpr double step = 1e-4;
-  const double upper = inside(reduced * (1 + step)), lower = inside(reduced * (1 - step));
+  const double upper = inside(reduced * (1 + difference_step)), lower = inside(reduced * (1 - difference_step));
   if (!(upper > lower) || result.shift.state == ContactState::no_contact) return result;
   const Shift more = at_velocity(upper), less = at_velocity(lower);
   if (more.state != ContactState::no_contact && less.state != ContactState::no_contact)

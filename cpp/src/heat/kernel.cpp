@@ -13,6 +13,7 @@
 #include "numerics/arguments.hpp"
 #include "numerics/chebyshev.hpp"
 #include "numerics/gauss_legendre.hpp"
+#include "numerics/simd.hpp"
 
 namespace asperity {
 
@@ -84,53 +85,22 @@ HeatFunctions disc_far(double x) {
   return {first + second + third, 2 * first + 3 * second + 4 * third};
 }
 
-/// (1 + x) N and (1 + x) Q as polynomials in ln x, on pieces of width 1/2, by way of Chebyshev sums.
-class DiscTable {
- public:
-  DiscTable() {
-    const ChebyshevZeros<terms> zeros;
-    for (std::size_t piece = 0; piece < pieces; ++piece) {
-      std::array<double, terms> n{}, q{};
-      for (std::size_t j = 0; j < terms; ++j) {
-        const double x = std::exp(start + width * (static_cast<double>(piece) + 0.5 * (1 + zeros.point[j])));
-        const HeatFunctions sample = disc_by_quadrature(x);
-        n[j] = (1 + x) * sample.n;
-        q[j] = (1 + x) * sample.q;
-      }
-      n = powers_of(zeros.series(n));
-      q = powers_of(zeros.series(q));
-      for (std::size_t m = 0; m < terms; ++m) power_[piece][m] = {n[m], q[m]};
-    }
-  }
-
-  [[nodiscard]] HeatFunctions operator()(double x) const {
-    const double at = std::fmax(0, (std::log(x) - start) / width);
-    const auto piece = static_cast<std::size_t>(std::fmin(at, pieces - 1));
-    const double u = 2 * (at - static_cast<double>(piece)) - 1, square = u * u;
-    const auto& power = power_[piece];
-    HeatFunctions even{0, 0}, odd{0, 0};
-    for (std::size_t m = terms; m > 0; m -= 2) {
-      odd = {odd.n * square + power[m - 1].n, odd.q * square + power[m - 1].q};
-      even = {even.n * square + power[m - 2].n, even.q * square + power[m - 2].q};
-    }
-    const double scale = 1 / (1 + x);
-    return {(even.n + u * odd.n) * scale, (even.q + u * odd.q) * scale};
-  }
-
-  static constexpr double start = -37.25, width = 0.5;  // below, nothing changes any more
-  static constexpr std::size_t pieces = 100, terms = 18;
-
- private:
-  std::array<std::array<HeatFunctions, terms>, pieces> power_{};
-};
+/// (1 + x) N and (1 + x) Q over ln x.
+Pair scaled_disc(double log_x) {
+  const double x = std::exp(log_x);
+  const HeatFunctions at = disc_by_quadrature(x);
+  return Pair{(1 + x) * at.n, (1 + x) * at.q};
+}
 
 }  // namespace
 
 HeatFunctions heat_functions(Residence residence, double x) {
   if (residence == Residence::box) return box(x);
-  if (x > 2.7e5) return disc_far(x);  // ln x = 12.5
-  static const DiscTable table;
-  return table(x);
+  static PiecewiseChebyshev<Pair> table(-37.25, 12.5, scaled_disc);  // below, nothing changes any more
+  const double log_x = std::log(x);
+  if (log_x > table.highest()) return disc_far(x);
+  const Pair scaled = table(log_x) * (1 / (1 + x));
+  return {scaled[0], scaled[1]};
 }
 
 namespace {

@@ -20,7 +20,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double flat = 0.1;  // of ln eps over a stride, where solutions may be near each other
+constexpr double flat = 0.1;              // of ln eps over a stride, where solutions may be near each other
+constexpr double place_tolerance = 1e-3;  // of ln theta
 
 /// The length of a change of x: 1 where all of it grows by a factor e.
 double length_of(const VectorXd& change) { return change.norm() / std::sqrt(static_cast<double>(change.size())); }
@@ -29,9 +30,9 @@ double length_of(const VectorXd& change) { return change.norm() / std::sqrt(stat
 
 March::March(FlashMap& map, double background, const VectorXd& cold_rise)
     : map_(map), background_(background), highest_(std::fmax(highest_rubber_temperature - background, 1)) {
-  constexpr double least = 0.02, unfelt = 0.05;  // of the cold rise, and of ln a_T
+  constexpr double unfelt = 0.02;  // of the cold rise, and of ln a_T
   const double rate = std::numbers::ln10 * std::fabs(held_shift(map.scene().shift, background).slope);
-  const double first = std::fmin(least, unfelt / (rate * cold_rise.maxCoeff()));
+  const double first = unfelt / std::fmax(1, rate * cold_rise.maxCoeff());
   const Index points = cold_rise.size();
   const std::optional<double> log_kappa = map.log_kappa();
   at_ = {0, first, VectorXd(points + (log_kappa ? 1 : 0)), points};
@@ -213,27 +214,25 @@ VectorXd March::between(Place low, Place high, double near) {
 }
 
 bool March::is_between(const Place& low, const Place& high, const VectorXd& theta) {
-  constexpr double off = 1e-3;  // of places
   const VectorXd x = theta.array().log(), low_x = low.x.head(low.points), high_x = high.x.head(high.points);
-  const double apart = length_of(high_x - low_x) + off;
+  const double apart = length_of(high_x - low_x) + place_tolerance;
   return length_of(x - low_x) < apart && length_of(high_x - x) < apart;
 }
 
 /// The place on the plane across the straight line from one to the other.
 std::optional<Place> March::solve_between(const Place& low, const Place& high, double share) {
   const VectorXd way = high.x - low.x;
-  return solve(low.x + share * way, way / length_of(way), low.s + share * (high.s - low.s), 1e-3, nullptr);
+  return solve(low.x + share * way, way / length_of(way), low.s + share * (high.s - low.s), place_tolerance, nullptr);
 }
 
 /// The place on the plane through `start` across `direction`. With the slopes of a place nearby as long as these serve.
 std::optional<Place> March::solve(const VectorXd& start, const VectorXd& direction, double s, double tolerance,
                                   const MatrixXd* nearby) {
-  constexpr double farthest = 1;   // of a step in ln theta
-  constexpr double enough = 0.15;  // of the residual, which slopes of another place leave at most
+  constexpr double farthest = 1;  // of a step in ln theta
   VectorXd x = start;
   const Index n = start.size(), points = at_.points;
   double log_eps = 0, before = HUGE_VAL, way_before = HUGE_VAL;
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < most_passes; ++i) {
     pass(x);
     if (!(map_.rise().minCoeff() > 0)) return {};
     const VectorXd log_rise = map_.rise().array().log(), theta = x.head(points).array().exp();
@@ -246,10 +245,10 @@ std::optional<Place> March::solve(const VectorXd& start, const VectorXd& directi
     const double size = std::fmax(of_rise, n > points ? std::fabs(residual[points]) : 0);
     // near 1 it matters on which side eps is
     const bool near_1 = std::fabs(log_eps) < flat;
-    if (size < (near_1 ? exactly : std::fmin(tolerance, 1e-3)) || (size < 1e-9 && !(size < 0.5 * before)))
+    if (size < (near_1 ? exactly : std::fmin(tolerance, place_tolerance)) || (size < 1e-9 && !(size < 0.5 * before)))
       return Place{s, std::exp(log_eps), x, points};
     if (nearby && !(size < before)) return solve(start, direction, s, tolerance, nullptr);
-    if (!(size < enough * before) && i > 0) nearby = nullptr;
+    if (!(size < slopes_serve * before) && i > 0) nearby = nullptr;
     before = size;
     VectorXd step = bordered(nearby ? *nearby : slopes(x), direction).partialPivLu().solve(residual);
     // by their own length, as a residual may rise where the curve bends

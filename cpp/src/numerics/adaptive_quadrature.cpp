@@ -15,7 +15,7 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t nodes = 20, most_parts = 1000;
+constexpr std::size_t nodes = 20;
 
 struct Part {
   double lower, upper;

@@ -1,6 +1,7 @@
 // Adaptive integration, our own and GSL's (gsl_quadrature.cpp, the one place that knows it).
 #pragma once
 
+#include <cstddef>
 #include <functional>
 
 namespace asperity {
@@ -9,6 +10,8 @@ struct Integral {
   double value;
   double error;  // absolute, an estimate
 };
+
+inline constexpr std::size_t most_parts = 1000;  // of an interval, before an integral is given up
 
 using Integrand = std::function<double(double)>;
 

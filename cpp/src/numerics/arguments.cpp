@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 namespace asperity {
 
@@ -76,6 +77,13 @@ void require_same_size(std::string_view name, std::size_t size, std::string_view
     throw InvalidInput(argument(name) + " (" + count(size) + ") and " + argument(other) + " (" + count(other_size) +
                            ")" + must(" must have ") + "equal length",
                        "unequal-lengths");
+}
+
+std::optional<Diagnostic> note_on_angle(double direction) {
+  if (!(std::fabs(direction) > 2 * std::numbers::pi)) return std::nullopt;
+  return warning("large-angle",
+                 argument("direction") + " = " + value(direction, 6) + " is more than a turn: it is in radians",
+                 {"give the angle in radians"});
 }
 
 // Decimal numbers of few digits beside the ends of a range: rounding must not bring a number inside that lies outside,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -102,6 +103,10 @@ inline void require_room(std::span<const double> w, std::span<const double> i1, 
   require_same_size("i1", i1.size(), "angular_frequency", w.size());
   require_same_size("i2", i2.size(), "angular_frequency", w.size());
 }
+/// Whether products of a number keep all their digits.
+inline bool is_representable(double value) { return value >= 1e-280 && value <= 1e280; }
+/// On an angle in radians that seems to be in degrees.
+std::optional<Diagnostic> note_on_angle(double direction);
 inline void require_rtol(double rtol) {
   if (!(rtol >= 1e-12 && rtol <= 0.1)) refuse("rtol", rtol, "in [1e-12, 0.1]");
 }

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
+#include <mutex>
 #include <numbers>
+#include <vector>
 
 namespace asperity {
 
@@ -25,8 +28,9 @@ struct ChebyshevZeros {
   }
 
   /// Coefficients of T_0, T_1 ... of the polynomial through values at the points.
-  [[nodiscard]] std::array<double, n> series(const std::array<double, n>& value) const {
-    std::array<double, n> result{};
+  template <class V>
+  [[nodiscard]] std::array<V, n> series(const std::array<V, n>& value) const {
+    std::array<V, n> result{};
     for (std::size_t m = 0; m < n; ++m)
       for (std::size_t k = 0; k < n; ++k) result[m] += transform[m][k] * value[k];
     return result;
@@ -78,9 +82,10 @@ std::array<std::array<double, n>, 2> chebyshev_slopes(double t) {
 
 /// Coefficients of 1, t, t^2 ... of a Chebyshev series. Those of T_m grow as 2.4^m, so that the digits are kept where
 /// the series falls faster.
-template <std::size_t n>
-std::array<double, n> powers_of(const std::array<double, n>& series) {
-  std::array<double, n> power{}, last{1}, now{0, 1};
+template <class V, std::size_t n>
+std::array<V, n> powers_of(const std::array<V, n>& series) {
+  std::array<V, n> power{};
+  std::array<double, n> last{1}, now{0, 1};
   for (std::size_t m = 0; m < n; ++m) {
     for (std::size_t i = 0; i < n; ++i) power[i] += series[m] * last[i];
     std::array<double, n> next{};  // T_m+2 = 2 t T_m+1 - T_m
@@ -93,6 +98,57 @@ std::array<double, n> powers_of(const std::array<double, n>& series) {
   }
   return power;
 }
+
+/// A function, or several as one register V, as polynomials on equal pieces of a range, each made when a place on it is
+/// first asked for. Below the range the value at its lower end holds.
+template <class V>
+class PiecewiseChebyshev {
+ public:
+  /// Of a function whose singularities are a unit and more away.
+  PiecewiseChebyshev(double lowest, double highest, V (*exact)(double))
+      : lowest_(lowest), highest_(highest), exact_(exact), pieces_(1 + piece_at(highest)) {}
+
+  [[nodiscard]] double highest() const { return highest_; }
+  /// Up to the highest.
+  V operator()(double x) {
+    const double at = std::fmax(0, (x - lowest_) / width);
+    const auto index = static_cast<std::size_t>(at);
+    Piece& piece = pieces_[index];
+    if (!piece.made.load(std::memory_order_acquire)) make(index);
+    const double u = 2 * (at - static_cast<double>(index)) - 1, square = u * u;
+    V even{}, odd{};
+    for (std::size_t m = terms; m > 0; m -= 2) {
+      odd = odd * square + piece.power[m - 1];
+      even = even * square + piece.power[m - 2];
+    }
+    return even + u * odd;
+  }
+
+ private:
+  static constexpr std::size_t terms = 18;  // to rounding
+  static constexpr double width = 0.5;
+  struct Piece {
+    std::once_flag once;
+    std::atomic<bool> made = false;
+    std::array<V, terms> power{};
+  };
+
+  [[nodiscard]] std::size_t piece_at(double x) const { return static_cast<std::size_t>((x - lowest_) / width); }
+  void make(std::size_t index) {
+    std::call_once(pieces_[index].once, [&] {
+      static const ChebyshevZeros<terms> zeros;
+      std::array<V, terms> value;
+      for (std::size_t k = 0; k < terms; ++k)
+        value[k] = exact_(lowest_ + width * (static_cast<double>(index) + (1 + zeros.point[k]) / 2));
+      pieces_[index].power = powers_of(zeros.series(value));
+      pieces_[index].made.store(true, std::memory_order_release);
+    });
+  }
+
+  double lowest_, highest_;
+  V (*exact_)(double);
+  std::vector<Piece> pieces_;
+};
 
 /// The integral of a Chebyshev series, 0 at -1.
 template <std::size_t n>

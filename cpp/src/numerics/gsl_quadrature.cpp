@@ -18,8 +18,6 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t most_intervals = 1000;
-
 /// GSL's default handler ends the process. Ours is a private copy of GSL (its symbols are hidden), so that the
 /// host's handler stays as it is; return codes are checked instead.
 void silence_private_gsl() {
@@ -30,7 +28,7 @@ void silence_private_gsl() {
 /// A workspace for the time of one integral: an integrand may itself integrate.
 template <class Workspace>
 std::unique_ptr<Workspace, void (*)(Workspace*)> made(Workspace* allocate(std::size_t), void release(Workspace*)) {
-  std::unique_ptr<Workspace, void (*)(Workspace*)> result(allocate(most_intervals), release);
+  std::unique_ptr<Workspace, void (*)(Workspace*)> result(allocate(most_parts), release);
   if (!result) throw std::bad_alloc();
   return result;
 }
@@ -72,9 +70,9 @@ int call(Adaptive rule, const gsl_function& f, double lower, double upper, doubl
         &result.error, nullptr);
   const auto intervals = made(&gsl_integration_workspace_alloc, &gsl_integration_workspace_free);
   if (rule == Adaptive::qags)
-    return gsl_integration_qags(&f, lower, upper, atol, rtol, most_intervals, intervals.get(), &result.value,
+    return gsl_integration_qags(&f, lower, upper, atol, rtol, most_parts, intervals.get(), &result.value,
                                 &result.error);
-  return gsl_integration_qag(&f, lower, upper, atol, rtol, most_intervals, GSL_INTEG_GAUSS21, intervals.get(),
+  return gsl_integration_qag(&f, lower, upper, atol, rtol, most_parts, GSL_INTEG_GAUSS21, intervals.get(),
                              &result.value, &result.error);
 }
 

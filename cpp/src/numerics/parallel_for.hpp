@@ -49,6 +49,12 @@ void in_parts(unsigned parts, std::size_t size, Work work) {
     if (e) std::rethrow_exception(e);
 }
 
+/// Points of friction that are worth a thread of their own, and how many threads so many points are worth.
+inline constexpr std::size_t points_a_block = 64;
+inline unsigned workers_for(std::size_t points, unsigned threads) {
+  return static_cast<unsigned>(std::clamp<std::size_t>(points / points_a_block, 1, threads));
+}
+
 /// work(thread, begin, end) for consecutive blocks of [0, size): the next thread that is free takes the next one, as
 /// some take longer than others. Thrown on is the exception of the first block that has one, whichever came first.
 template <class Work>

@@ -19,7 +19,7 @@ namespace asperity {
 namespace {
 
 constexpr std::size_t order = AngularPolynomials::order;
-constexpr std::size_t together = 8;  // frequencies
+constexpr std::size_t together = AngularPolynomials::together;
 
 constexpr std::size_t in_blocks(std::size_t columns) { return (columns + lanes - 1) / lanes * lanes; }
 
@@ -153,7 +153,6 @@ bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
   double share[together], u[together], beyond[lanes * together];
   std::vector<double> value(columns * together);
   std::vector<double*> to(columns);
-  constexpr std::size_t near = 4;  // cells
   std::size_t c = 0;
   bool any_outside = false;
   for (std::size_t from = 0; from < n; from += together) {
@@ -161,7 +160,7 @@ bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
     bool has_outside = false;
     for (std::size_t i = 0; i < together; ++i) {
       const double at = std::clamp(w[from + (i < here ? i : 0)], cells_.front().low, cells_.back().high);
-      for (std::size_t step = 0; step < near && at > cells_[c].high; ++step) ++c;
+      for (std::size_t step = 0; step < AngularTable::near && at > cells_[c].high; ++step) ++c;
       if (!(at >= cells_[c].low && at <= cells_[c].high)) c = cell_of(at);
       cell[i] = &cells_[c];
       share[i] = std::max(0.0, (at - cell[i]->panel_low) * cell[i]->inverse_length);

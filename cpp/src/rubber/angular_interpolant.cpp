@@ -101,7 +101,6 @@ void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts)
 /// The part of a frequency that is not in the part before, whose panel is `panel`.
 const AngularTable::Part& AngularTable::next(double at, std::size_t& panel) const {
   const std::span<const double> edges = sums_.edges();
-  constexpr std::size_t near = 4;
   if (at >= edges[panel] && at < edges[std::min(panel + near, edges.size() - 1)]) {
     while (at >= edges[panel + 1]) ++panel;
   } else {

@@ -49,6 +49,7 @@ class AngularTable {
   /// At each of `w`; of any of them, whether more than 1e-7 of I1 comes from outside of the measured range, and whether
   /// it is beyond the pieces, where the values at their ends are taken. `i1_outside` may be null.
   static constexpr double least_outside = 1e-7;
+  static constexpr std::size_t near = 4;  // panels or cells, which are looked at one after the other before a search
   struct Any {
     bool outside = false, beyond = false;
   };

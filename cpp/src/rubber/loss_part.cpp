@@ -11,12 +11,13 @@
 #include <numbers>
 #include <vector>
 
+#include "numerics/differences.hpp"
+
 namespace asperity {
 
 namespace {
 
-constexpr double near = 0.2;    // relative distance of two times
-constexpr double most = 1e100;  // of x, beyond which nothing changes
+constexpr double near = 0.2;  // relative distance of two times
 
 struct Pair {
   std::size_t k, l;
@@ -64,7 +65,7 @@ void loss_part(const PronySeries& series, std::span<const double> w, std::span<d
   for (std::size_t i = 0; i < n; ++i) {
     double sum = 0, rise = 0;
     for (std::size_t k = 0; k < terms; ++k) {
-      x[k] = std::fmin(w[i] * tau[k], most);
+      x[k] = std::fmin(w[i] * tau[k], largest_x);
       r[k] = std::sqrt(1 + x[k] * x[k]);
       const double y = x[k] / r[k];
       sum += weight[k] * y * (x[k] / (r[k] + 1));
@@ -141,7 +142,7 @@ void loss_part_gradient(const PronySeries& series, std::span<const double> w, st
     const std::span<const double> by = by_part.subspan(i * rows, rows), by_harmonics = by.subspan(1);
     if (std::ranges::all_of(by, [](double one) { return one == 0; })) continue;
     for (std::size_t k = 0; k < terms; ++k) {
-      x[k] = std::fmin(w[i] * tau[k], most);
+      x[k] = std::fmin(w[i] * tau[k], largest_x);
       r[k] = std::sqrt(1 + x[k] * x[k]);
       const double y = x[k] / r[k], root = x[k] / (r[k] + 1);
       s[k] += by[0] * y * root;
@@ -158,13 +159,12 @@ void loss_part_gradient(const PronySeries& series, std::span<const double> w, st
       add(k, value, value * (1 - a * a - x[k] * a / both));
       add(l, value, value * (1 - b * b - x[l] * b / both));
       if (by_harmonics.empty()) continue;
-      constexpr double step = 1e-4;
       const auto at = [&, k = k, l = l](double first, double second) {
         return of_pair(x[k] * std::exp(first), x[l] * std::exp(second), by_harmonics);
       };
       const double of_both = of * at(0, 0);
-      add(k, of_both, of * (at(step, 0) - at(-step, 0)) / (2 * step));
-      add(l, of_both, of * (at(0, step) - at(0, -step)) / (2 * step));
+      add(k, of_both, of * slope_at_0([&](double t) { return at(t, 0); }));
+      add(l, of_both, of * slope_at_0([&](double t) { return at(0, t); }));
     }
   }
   visit_pairs(

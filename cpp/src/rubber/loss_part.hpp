@@ -8,6 +8,9 @@
 
 namespace asperity {
 
+/// Beyond it nothing changes with x = w tau any more; its square is a double.
+inline constexpr double largest_x = 1e140;
+
 /// int (Im E(w cos phi))^2 cos(2 m phi) dphi [Pa^2] at each of `w`, in as many rows of m = 0, 1 and so on as there is
 /// room for, and the slope of the first over ln w where there is room for it.
 void loss_part(const PronySeries& series, std::span<const double> w, std::span<double> part,

@@ -8,6 +8,7 @@
 #include "asperity/rubber.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/interpolation.hpp"
+#include "numerics/rounding.hpp"
 #include "rubber/angular_harmonics.hpp"
 #include "rubber/angular_interpolant.hpp"
 
@@ -17,8 +18,6 @@ namespace {
 
 /// Whether the square of a modulus [Pa] can be told.
 bool tellable_square(double modulus) { return modulus >= 1e-140 && modulus <= 1e140; }
-
-constexpr double rounding = 1e-12;  // how far v q0 may miss the end of a table by its own rounding
 
 /// E(w) from `far` times its lowest frequency up: the end of the tail, the table, and where asked for a decade before
 /// and after it.
@@ -93,7 +92,7 @@ struct MasterCurve::Table {
 
   void check(double w) const {
     require_positive("angular_frequency", w);
-    if (w >= knots.front() * (1 - rounding) && w <= knots.back() * (1 + rounding)) return;
+    if (is_within(w, knots.front(), knots.back())) return;
     const ShownRange known(knots.front(), knots.back());
     throw OutOfRange(argument("angular_frequency") + " = " + known.value(w) + " rad/s: the master curve is known in " +
                      known.text() + " rad/s" +

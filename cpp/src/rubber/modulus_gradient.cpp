@@ -11,8 +11,10 @@
 #include <numbers>
 #include <utility>
 
+#include "numerics/differences.hpp"
 #include "numerics/gauss_legendre.hpp"
 #include "numerics/interpolation.hpp"
+#include "rubber/angular_quadrature.hpp"
 #include "rubber/loss_part.hpp"
 
 namespace asperity {
@@ -23,10 +25,8 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double far = 0.7;                      // of u
-constexpr double settled = 1e-3;                 // of u, below which kernels are their limits
+constexpr double settled = 1e-3;  // of u, below which kernels are their limits, and one row stands for all
 constexpr double step = std::numbers::ln10 / 5;  // of ln w between the rows of a series
-constexpr double below = 1e-3;                   // of the lowest frequency, from where the lowest row stands for all
 constexpr double longest = 0.5;                  // in ln w, between breaks
 
 /// Places in s = sqrt(ln(w / low) / ln(high / low)), Chebyshev's points of the first kind.
@@ -72,7 +72,7 @@ ModulusGradient::ModulusGradient(const Rubber& rubber, double lowest, double hig
 }
 
 void ModulusGradient::take_hats(double lowest, double highest) {
-  const double first = lowest * below, n = std::ceil(std::fmax(1, std::log(highest / first) / step));
+  const double first = lowest * settled, n = std::ceil(std::fmax(1, std::log(highest / first) / step));
   for (double k = 0; k <= n; ++k) rows_.push_back(k == n ? highest : first * std::pow(highest / first, k / n));
   for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
     Stretch stretch{rows_[k], rows_[k + 1], static_cast<Index>(k), 2};
@@ -86,7 +86,6 @@ void ModulusGradient::take_hats(double lowest, double highest) {
 /// apart are moved together.
 void ModulusGradient::take_rows(const MasterCurve& curve) {
   constexpr std::size_t apart = 5;
-  constexpr double moved = 1e-5;
   rows_ = curve.angular_frequency();
   const std::vector<double> x = logarithms(rows_);
   const auto changed_by = [&](const std::vector<double>& of, double by) {
@@ -98,16 +97,17 @@ void ModulusGradient::take_rows(const MasterCurve& curve) {
     }
     return result;
   };
-  const auto storage_less = changed_by(curve.storage_modulus(), -moved),
-             storage_more = changed_by(curve.storage_modulus(), moved),
-             loss_less = changed_by(curve.loss_modulus(), -moved), loss_more = changed_by(curve.loss_modulus(), moved);
+  const auto storage_less = changed_by(curve.storage_modulus(), -difference_step),
+             storage_more = changed_by(curve.storage_modulus(), difference_step),
+             loss_less = changed_by(curve.loss_modulus(), -difference_step),
+             loss_more = changed_by(curve.loss_modulus(), difference_step);
   // beyond the rows lines go on, or constants
   const double beyond = curve.extrapolation() == Extrapolation::power_law ? 1 : 0;
   const auto change = [&](const Steffen& less, const Steffen& more, double at) {
     const std::size_t row = at < x.front() ? 0 : x.size() - 1;
     const double inside = std::clamp(at, x.front(), x.back()),
                  slope = at == inside ? 0 : beyond * (more.slope(row) - less.slope(row));
-    return (more(inside) - less(inside) + slope * (at - inside)) / (2 * moved);
+    return (more(inside) - less(inside) + slope * (at - inside)) / (2 * difference_step);
   };
   std::vector<double> edges{curve.knots().begin(), curve.knots().end()};
   double before = HUGE_VAL;
@@ -158,7 +158,7 @@ ModulusGradient::Node ModulusGradient::node_at(const Rubber& rubber, double w, d
     const auto& series = std::get<PronySeries>(rubber);
     const auto n = std::ssize(series.moduli());
     const Eigen::Map<const Eigen::ArrayXd> moduli(series.moduli().data(), n), tau(series.relaxation_times().data(), n);
-    const auto x = (w * tau).min(1e140);  // whose square is a double
+    const auto x = (w * tau).min(largest_x);
     const auto of_loss = moduli * (x / (1 + x.square()));
     e = {series.equilibrium_modulus() + (of_loss * x).sum(), of_loss.sum()};
   }
@@ -231,8 +231,8 @@ void ModulusGradient::take_integrals() {
       const double w = stretch.low * std::pow(stretch.high / stretch.low, s * s);
       stretch.inverse_w[static_cast<std::size_t>(place)] = 1 / w;
       std::size_t near = stretch.near;  // the first stretch that reaches beyond `far`
-      while (stretches_[near].high <= far * w) ++near;
-      const bool tail_near = near == 0 && lowest > far * w;
+      while (stretches_[near].high <= AngularSums::far * w) ++near;
+      const bool tail_near = near == 0 && lowest > AngularSums::far * w;
       for (std::size_t k = tail_near ? fine.n : stretch.near == 0 ? 0 : first[stretch.near]; k < first[near]; ++k) {
         const double u = nodes[k].w / w;
         add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), stretch, place);

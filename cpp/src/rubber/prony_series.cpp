@@ -9,18 +9,13 @@
 #include "asperity/rubber.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/kernels.hpp"
+#include "numerics/rounding.hpp"
 #include "rubber/angular_harmonics.hpp"
+#include "rubber/loss_part.hpp"
 
 namespace asperity {
 
 using std::numbers::pi;
-
-namespace {
-
-constexpr double rounding = 1e-12;      // how far v q0 may miss the end of a range by its own rounding
-constexpr double worth_telling = 1e-7;  // of I1
-
-}  // namespace
 
 PronySeries::PronySeries(double equilibrium_modulus, std::vector<double> moduli, std::vector<double> relaxation_times)
     : equilibrium_(equilibrium_modulus), moduli_(std::move(moduli)), times_(std::move(relaxation_times)) {
@@ -71,7 +66,7 @@ AngularIntegrals PronySeries::angular_integrals(double w) const {
   double i1 = 0, i2 = equilibrium_ * equilibrium_;
   for (std::size_t k = 0; k < moduli_.size(); ++k) {
     const double t = w * times_[k];
-    const double r = t < 1e150 ? std::sqrt(1 + t * t) : t;
+    const double r = t < largest_x ? std::sqrt(1 + t * t) : t;
     const double s_over_t = (t / r) / (r + 1);
     i1 += moduli_[k] * s_over_t;
     i2 += weights_[k] * t * s_over_t;
@@ -91,8 +86,8 @@ AngularIntegrals PronySeries::outside(double w, const AngularIntegrals& whole) c
     AngularIntegrals sum{0, psi * equilibrium_ * equilibrium_};
     for (std::size_t k = 0; k < moduli_.size(); ++k) {
       const double t = w * times_[k];
-      if (t < 1e-150) continue;
-      const double r = t < 1e150 ? std::sqrt(1 + t * t) : t, a = t / (r + 1);
+      if (t < 1 / largest_x) continue;
+      const double r = t < largest_x ? std::sqrt(1 + t * t) : t, a = t / (r + 1);
       const double g = a / r * psi - std::atan(t * a * sine * cosine / (cosine * cosine + r * sine * sine)) / r / t;
       sum.i1 += moduli_[k] * g;
       sum.i2 += weights_[k] * t * g;
@@ -125,7 +120,7 @@ void PronySeries::check_frequency(double w) const {
 void PronySeries::check_fitted(double w) const {
   if (!fit_ || fit_->extrapolated) return;
   const auto [lowest, highest] = fit_->range;
-  if (w >= lowest * (1 - rounding) && w <= highest * (1 + rounding)) return;
+  if (is_within(w, lowest, highest)) return;
   const ShownRange known(lowest, highest);
   throw OutOfRange(argument("angular_frequency") + " = " + known.value(w) + " rad/s: the Prony series was fitted on " +
                    known.text() + " rad/s; " + advice("extrapolate-series", "extrapolation=\"prony\" of fit_prony") +
@@ -148,7 +143,7 @@ bool PronySeries::angular_integrals(std::span<const double> w, std::span<double>
   }
   check_frequency(fastest);
   // in lanes but for a rest, and for frequencies whose squares overflow
-  const std::size_t whole = fastest * longest_ < 1e150 ? n - n % lanes : 0;
+  const std::size_t whole = fastest * longest_ < largest_x ? n - n % lanes : 0;
   kernels().prony({moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_}, w.data(), whole,
                   i1.data(), i2.data());
   for (std::size_t i = whole; i < n; ++i) {
@@ -167,10 +162,11 @@ bool PronySeries::outside(std::span<const double> w, std::span<const double> i1,
     // int_0^psi 4 sin E''(w sin) <= 4 (1 - cos psi) E''_max, and 1 - cos psi <= 0.51 sin^2 psi up to 0.2
     const double sine = fit_->range.lowest / w[i];
     double outside_i = 0;
-    if (!(sine < 0.2 && 2.1 * sine * sine * fit_->loss_below <= worth_telling * i1[i]) || w[i] > fit_->range.highest)
+    if (!(sine < 0.2 && 2.1 * sine * sine * fit_->loss_below <= AngularTable::least_outside * i1[i]) ||
+        w[i] > fit_->range.highest)
       outside_i = outside(w[i], {i1[i], i2[i]}).i1_outside;
     if (!i1_outside.empty()) i1_outside[i] = outside_i;
-    any |= outside_i > worth_telling * i1[i];
+    any |= outside_i > AngularTable::least_outside * i1[i];
   }
   return any;
 }
@@ -180,8 +176,7 @@ bool PronySeries::angular_integrals(std::span<const double> w, std::span<double>
                                     std::span<double> square) const {
   const std::size_t count = harmonics_in(w, loss, square);
   if (count == 0) return angular_integrals(w, i1, i2, i1_outside);
-  constexpr double most = 1e150;  // of w tau, beyond which nothing changes
-  const double fastest = longest_ > 0 ? most / longest_ : std::numeric_limits<double>::max();
+  const double fastest = longest_ > 0 ? largest_x / longest_ : std::numeric_limits<double>::max();
   const PronyTerms terms{moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_};
   const std::size_t n = w.size();
   if (n % lanes == 0 && std::ranges::max(w) < fastest) {

@@ -37,7 +37,7 @@ SeriesSlopes::SeriesSlopes(const PronySeries& series, double lowest, double high
     for (Index k = 0; k < n; ++k) {
       const double t = std::fmin(
           std::exp(first_ + static_cast<double>(j) * step) * series.relaxation_times()[static_cast<std::size_t>(k)],
-          1e140);  // whose square is a double
+          largest_x);
       const double root = std::sqrt(1 + t * t);
       const double y = t / (1 + root);
       double power = 1;  // u^m

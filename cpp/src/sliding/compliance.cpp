@@ -9,6 +9,7 @@
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/gauss_legendre.hpp"
+#include "numerics/rounding.hpp"
 #include "rubber/loss_part.hpp"
 #include "sliding/contact_solver.hpp"
 
@@ -76,10 +77,7 @@ Compliance compliance(const WaveModulus& modulus, double velocity, double direct
   const double step_x = 2 * pi / sides.x, step_y = 2 * pi / sides.y;
   const double cosine = std::cos(direction), sine = direction == 0 ? 0 : std::sin(direction);
   const CellDensity cell(step_x / 2 * std::fabs(cosine), step_y / 2 * std::fabs(sine));
-  const auto across = [&](double along) {
-    constexpr double rounding = 1e-9;
-    return std::fabs(along) < cell.half_width() * (1 - rounding);
-  };
+  const auto across = [&](double along) { return is_below(std::fabs(along), cell.half_width()); };
   const auto response = [&](double q, double along) -> Response {
     const auto inverse = [&](double t) { return 1.0 / std::conj(modulus.at(q, velocity * t)); };
     if (across(along)) return mean_over_cell(cell, along, inverse);

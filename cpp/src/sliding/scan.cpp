@@ -22,10 +22,9 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double most_points = 1024.0 * 1024.0;  // of a grid that is solved whole
-constexpr double side = 512;                     // points along a side of the grids of a scan that is not
-constexpr double rtol = 1e-4;                    // complementarity of a node
-constexpr double most_error = 0.05;              // that a node may end with
+constexpr double side = 512;  // points along a side of the grids of a scan that is not solved whole: with twice as many
+constexpr double rtol = 1e-4;        // complementarity of a node
+constexpr double most_error = 0.05;  // that a node may end with
 
 /// FNV-1a over the bits of numbers.
 class Fingerprint {
@@ -90,7 +89,7 @@ bool Scan::one_grid(const Band& band) {
   auto [at, fresh] = one_grid_.try_emplace(band);
   if (fresh) {
     const double images = continuation_ == Continuation::mirror ? 4 : 1;
-    at->second = images * grid_points(prepared_, band, points_a_wave()) <= most_points;
+    at->second = images * grid_points(prepared_, band, points_a_wave()) <= 4 * side * side;
   }
   return at->second;
 }

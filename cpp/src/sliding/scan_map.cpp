@@ -11,6 +11,7 @@
 
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/rounding.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/segments.hpp"
 
@@ -20,7 +21,6 @@ using std::numbers::pi;
 
 namespace {
 
-constexpr double rounding = 1e-9;
 constexpr std::size_t fewest = 32;  // points along a side
 
 /// The next length of 8, 9, 10, 12 or 15 times a power of two, whose transforms are quick.
@@ -39,7 +39,6 @@ std::vector<double> band_heights(const std::vector<double>& heights, Grid from, 
   const std::size_t half_from = from[1] / 2 + 1, half_to = to[1] / 2 + 1;
   std::vector<std::complex<double>> kept(to[0] * half_to);
   const double norm = 1 / static_cast<double>(from[0] * from[1]);
-  const auto low = band.q0 * (1 - rounding), high = band.q1 * (1 + rounding);
   // waves of two points, of either grid, have no phase: they are left out
   const std::size_t rows = (std::min(from[0], to[0]) - 1) / 2, columns = (std::min(from[1], to[1]) - 1) / 2;
   for (std::size_t y = 0; y < from[0]; ++y) {
@@ -50,7 +49,7 @@ std::vector<double> band_heights(const std::vector<double>& heights, Grid from, 
     const double qy = 2 * pi / length_y * static_cast<double>(wave);
     for (std::size_t x = 0; x <= columns; ++x) {
       const double q = std::hypot(qy, 2 * pi / length_x * static_cast<double>(x));
-      if (q >= low && q <= high) kept[row * half_to + x] = norm * modes[y * half_from + x];
+      if (is_within(q, band.q0, band.q1)) kept[row * half_to + x] = norm * modes[y * half_from + x];
     }
   }
   return backward_transform(kept, to);
@@ -69,7 +68,7 @@ double shortest_wave(const Spectrum& rings) { return 2 * pi / RoughnessWindow(se
 Spectrum within(const TabulatedSpectrum& table, const Band& band) {
   const auto [first, last] = asperity::band(Spectrum(table));
   const double q0 = std::max(band.q0, first), q1 = std::min(band.q1, last);
-  if (!(q0 < q1 * (1 - rounding)))
+  if (!is_below(q0, q1))
     throw InvalidInput(argument("height_map") + ": the band of the spectrum, " + show(band.q0, 4) + " to " +
                        show(band.q1, 4) + " 1/m, has less than two rings of its waves, which are known from " +
                        show(first, 4) + " to " + show(last, 4) + " 1/m");

@@ -225,11 +225,7 @@ SlidingContact slide(const HeightMap& map, const Rubber& rubber, double pressure
                        (std::chrono::steady_clock::now() > course.deadline ? " at the end of time_limit" : ""));
   if (model.continuation != Continuation::periodic)
     contact.notes.push_back(note("map-continued", {description(model.continuation)}));
-  if (std::fabs(model.direction) > 2 * pi)
-    contact.notes.push_back(
-        warning("large-angle",
-                argument("direction") + " = " + value(model.direction, 6) + " is more than a turn: it is in radians",
-                {"give the angle in radians"}));
+  if (auto angle = note_on_angle(model.direction)) contact.notes.push_back(*std::move(angle));
   return std::move(contact);
 }
 

@@ -11,6 +11,7 @@
 #include "asperity/watch.hpp"
 #include "numerics/adaptive_quadrature.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/differences.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
@@ -105,7 +106,7 @@ std::vector<double> isotropic_densities(const LineSpectrum& spectrum) {
 
 }  // namespace
 
-// Standard errors go through the derivative of each result after each row, taken by a step of 1e-4 in its logarithm.
+// Standard errors go through the derivative of each result after each row, taken by a small step in its logarithm.
 // Rows that were flagged already and come out negative are left out: they were not to be trusted.
 TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
   const std::size_t n = spectrum.wavenumber().size();
@@ -115,13 +116,12 @@ TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
   const RowQuality& old = spectrum.quality();
   const std::vector<double> all = isotropic_densities(spectrum);
   std::vector<double> variance(n);
-  constexpr double step = 1e-4;
   for (std::size_t j = 0; j < n && !old.standard_error.empty(); ++j) {
     std::vector<double> moved = spectrum.density();
     const double relative = old.standard_error[j] / moved[j];
-    moved[j] *= 1 + step;
+    moved[j] *= 1 + difference_step;
     const auto changed = isotropic_densities(LineSpectrum(spectrum.wavenumber(), std::move(moved)));
-    for (std::size_t i = 0; i < n; ++i) variance[i] += std::pow((changed[i] - all[i]) / step * relative, 2);
+    for (std::size_t i = 0; i < n; ++i) variance[i] += std::pow((changed[i] - all[i]) / difference_step * relative, 2);
   }
 
   std::vector<double> q, c;
@@ -150,7 +150,6 @@ TabulatedSpectrum isotropic(const LineSpectrum& spectrum) {
 std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const double> distance) {
   const std::vector<Segment> pieces = segments(spectrum);
   const double rms = rms_height(spectrum), at_zero = rms * rms / (2 * pi);
-  constexpr double negligible = 1e-10;
   std::vector<double> result;
   for (const double r : distance) {
     heed();
@@ -160,7 +159,7 @@ std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const do
     for (const Segment& s : pieces) {
       for (double q = s.a; q < s.b;) {
         const bool falling = !s.straight && s.slope < 0 && &s == &pieces.back();
-        if (r > 0 && falling && 2 * s.density(q) * std::sqrt(2 * q / (pi * r * r * r)) < negligible * at_zero) break;
+        if (r > 0 && falling && 2 * s.density(q) * std::sqrt(2 * q / (pi * r * r * r)) < rtol * at_zero) break;
         double next = q * std::numbers::e;
         if (r > 0) next = std::min(next, q + 2 * pi / r);
         heed_at(steps);
@@ -170,8 +169,8 @@ std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const do
         next = std::min(next, s.b);
         const auto rate = [&](double k) { return k * s.density(k) * ::j0(k * r); };
         Integral piece = integrate_smooth(rate, q, next);
-        if (piece.error > negligible * at_zero / static_cast<double>(pieces.size()))
-          piece = integrate(rate, q, next, negligible, negligible * at_zero / static_cast<double>(pieces.size()));
+        if (piece.error > rtol * at_zero / static_cast<double>(pieces.size()))
+          piece = integrate(rate, q, next, rtol, rtol * at_zero / static_cast<double>(pieces.size()));
         sum += piece.value;
         q = next;
       }

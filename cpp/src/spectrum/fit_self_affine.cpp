@@ -9,6 +9,7 @@
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/dense.hpp"
+#include "numerics/differences.hpp"
 #include "numerics/roots.hpp"
 
 namespace asperity {
@@ -202,12 +203,11 @@ struct Estimate {
     const auto log_rms = [&](double slope, double x_r) {
       return Broken::log_rms(fit.level, fit.slope + slope, fit.x_r + x_r, x0, x1);
     };
-    constexpr double h = 1e-5;
     const double rms = std::exp(log_rms(0, 0)), rolloff = std::exp(fit.x_r);
     value = {rms, -fit.slope / 2 - 1, rolloff};
     Eigen::Matrix3d after;
-    after << rms / 2, rms * (log_rms(h, 0) - log_rms(-h, 0)) / (2 * h),
-        rms * (log_rms(0, h) - log_rms(0, -h)) / (2 * h), 0, -0.5, 0, 0, 0, rolloff;
+    after << rms / 2, rms * slope_at_0([&](double t) { return log_rms(t, 0); }),
+        rms * slope_at_0([&](double t) { return log_rms(0, t); }), 0, -0.5, 0, 0, 0, rolloff;
     covariance = congruence(after.leftCols(model.covariance.cols()), model.covariance);
   }
 

@@ -8,6 +8,7 @@
 
 #include "numerics/arguments.hpp"
 #include "numerics/gauss_legendre.hpp"
+#include "numerics/rounding.hpp"
 #include "spectrum/segments.hpp"
 
 namespace asperity {
@@ -188,7 +189,6 @@ TabulatedSpectrum table_of(const SelfAffineSpectrum& s) {
   const double scale = s.rolloff ? 1 : means(s, 1, 1)[0];
   std::vector<std::vector<double>> rows;
   std::size_t count = 0;
-  constexpr double least = 1e-9;
   for (const double at : q) {
     const bool same = !s.rolloff && !rows.empty();
     rows.push_back(same ? rows.front() : means(s, s.rolloff ? at / from : 1, most_harmonics + 1));
@@ -197,7 +197,7 @@ TabulatedSpectrum table_of(const SelfAffineSpectrum& s) {
     for (double& one : rows.back()) one /= same ? 1 : mean;
     if (same) c.back() = top * std::pow(at / from, fall(s));
     for (std::size_t m = count; m < most_harmonics; ++m)
-      if (std::fabs(rows.back()[m + 1]) > least) count = m + 1;
+      if (std::fabs(rows.back()[m + 1]) > rounding_error) count = m + 1;
   }
   RingHarmonics harmonics{count, {}, {}, {}};
   for (const std::vector<double>& row : rows)

@@ -8,6 +8,7 @@
 
 #include "asperity/spectrum.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/rounding.hpp"
 
 namespace asperity {
 
@@ -133,12 +134,12 @@ std::vector<std::vector<std::size_t>> log_bins(const Rows& rows, double per_deca
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return rows.wavenumber[i]; });
   const double first = rows.wavenumber[order.front()];
-  constexpr double rounding = 1e-9;  // the same rows in another unit fall into the same bins
   std::vector<std::vector<std::size_t>> bins;
   double last = -1;
   for (const std::size_t i : order) {
     if (!rows.quality.count.empty() && rows.quality.count[i] == 0) continue;  // put in at a cut
-    const double bin = std::floor(std::log10(rows.wavenumber[i] / first) * per_decade + rounding);
+    // the same rows in another unit fall into the same bins
+    const double bin = std::floor(std::log10(rows.wavenumber[i] / first) * per_decade + rounding_error);
     if (bin != last) bins.emplace_back();
     last = bin;
     bins.back().push_back(i);
@@ -174,7 +175,7 @@ S binned(const S& spectrum, double per_decade) {
 }
 
 bool same_wavenumbers(std::span<const TabulatedSpectrum> spectra) {
-  const auto equal = [](double a, double b) { return std::fabs(a - b) <= 1e-9 * a; };
+  const auto equal = [](double a, double b) { return is_within(a, b, b); };
   return std::ranges::all_of(spectra, [&](const TabulatedSpectrum& s) {
     return std::ranges::equal(s.wavenumber(), spectra.front().wavenumber(), equal);
   });

@@ -91,10 +91,10 @@ std::vector<double> without_faded(const TabulatedSpectrum& table) {
   const auto& q = table.wavenumber();
   std::vector<double> c = table.density(), roughness;
   for (std::size_t i = 0; i < c.size(); ++i) roughness.push_back((q[i] * q[i]) * (q[i] * q[i]) * c[i]);
-  constexpr double least = 1e-280, nothing = 1e-20;
+  constexpr double nothing = 1e-20;
   const double most = std::ranges::max(roughness);
   for (std::size_t i = 0; i < c.size(); ++i)
-    if (std::fmin(c[i], roughness[i]) < least && roughness[i] < nothing * most) c[i] = 0;
+    if (!is_representable(std::fmin(c[i], roughness[i])) && roughness[i] < nothing * most) c[i] = 0;
   return c;
 }
 

@@ -9,6 +9,7 @@
 #include "numerics/arguments.hpp"
 #include "numerics/fft.hpp"
 #include "numerics/random.hpp"
+#include "numerics/rounding.hpp"
 #include "spectrum/harmonics.hpp"
 #include "spectrum/height_moments.hpp"
 
@@ -52,7 +53,6 @@ std::vector<double> amplitudes(const Spectrum& spectrum, HeightMap::Shape shape,
   const PlaneDensity density(spectrum);
   const auto [q0, q1] = band(spectrum);
   const double ly = static_cast<double>(ny) * pixel_size[0], lx = static_cast<double>(nx) * pixel_size[1];
-  constexpr double rounding = 1e-9;  // a band that starts at 2 pi / side holds the mode 2 pi / side
   const std::size_t half = nx / 2 + 1;
   std::vector<double> result(ny * half);
   const bool directional = is_directional(spectrum);
@@ -63,7 +63,7 @@ std::vector<double> amplitudes(const Spectrum& spectrum, HeightMap::Shape shape,
     const double qy = 2 * pi / ly * static_cast<double>(upper ? ny - ky : ky);
     for (std::size_t kx = 0; kx < half; ++kx) {
       const double q = std::hypot(qy, 2 * pi / lx * static_cast<double>(kx));
-      if (q < q0 * (1 - rounding) || q > q1 * (1 + rounding)) continue;
+      if (!is_within(q, q0, q1)) continue;  // a band that starts at 2 pi / side holds the mode 2 pi / side
       const double inside = std::clamp(q, q0, q1);
       const double direction = directional ? std::atan2(upper ? -qy : qy, 2 * pi / lx * static_cast<double>(kx)) : 0;
       const double c = std::fmax(0, density(inside, direction));  // harmonics of a scan leave ripples

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "numerics/arguments.hpp"
+#include "numerics/rounding.hpp"
 #include "spectrum/harmonics.hpp"
 #include "spectrum/roughness_window.hpp"
 #include "spectrum/segments.hpp"
@@ -50,9 +51,9 @@ void validate_rows(const std::vector<double>& wavenumber, const std::vector<doub
   if (quality.heights) {
     const auto [skewness, kurtosis, curvature_kurtosis, slope_ratio] = *quality.heights;
     require_finite("skewness", skewness);
-    if (!(kurtosis >= (1 + skewness * skewness) * (1 - 1e-9)) || !std::isfinite(kurtosis))
+    if (is_below(kurtosis, 1 + skewness * skewness) || !std::isfinite(kurtosis))
       refuse("kurtosis", kurtosis, "1 + skewness^2 or more, and finite");
-    if (curvature_kurtosis && !(*curvature_kurtosis >= 1 - 1e-9 && std::isfinite(*curvature_kurtosis)))
+    if (curvature_kurtosis && (is_below(*curvature_kurtosis, 1) || !std::isfinite(*curvature_kurtosis)))
       refuse("curvature_kurtosis", *curvature_kurtosis, "1 or more, and finite");
     if (slope_ratio && !(*slope_ratio >= 1 && std::isfinite(*slope_ratio)))
       refuse("slope_ratio", *slope_ratio, "1 or more, and finite");
@@ -68,11 +69,10 @@ void validate_harmonics(const RingHarmonics& harmonics, std::size_t rows) {
   require_same_size("sine", harmonics.sine.size(), "wavenumber times harmonics", size);
   if (!harmonics.standard_error.empty())
     require_same_size("harmonic_error", harmonics.standard_error.size(), "wavenumber times harmonics", size);
-  constexpr double most = 1 + 1e-9;
   for (std::size_t i = 0; i < size; ++i)
-    if (!(std::hypot(harmonics.cosine[i], harmonics.sine[i]) <= most))
-      refuse(argument("cosine") + ", " + argument("sine") + ": entry " + std::to_string(i),
-             std::hypot(harmonics.cosine[i], harmonics.sine[i]), "of size 1 or less");
+    if (const double modulus = std::hypot(harmonics.cosine[i], harmonics.sine[i]); !is_within(modulus, 0, 1))
+      refuse(argument("cosine") + ", " + argument("sine") + ": entry " + std::to_string(i), modulus,
+             "of size 1 or less");
   require_each_not_negative("harmonic_error", harmonics.standard_error);
 }
 

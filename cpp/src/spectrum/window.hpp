@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "asperity/spectrum.hpp"
+#include "numerics/rounding.hpp"
 #include "surface/detrend.hpp"
 
 namespace asperity {
@@ -76,10 +77,9 @@ struct Reliability {
         fewest(32 * variance_factor) {}
 
   [[nodiscard]] std::uint8_t flag(double wavenumber, double modes) const {
-    constexpr double rounding = 1e-9;  // exactly 16 periods are 16 periods
     int bits = 0;
-    if (wavenumber < lowest * (1 - rounding)) bits |= few_periods;
-    if (wavenumber > highest * (1 + rounding)) bits |= near_nyquist;
+    if (is_below(wavenumber, lowest)) bits |= few_periods;  // exactly 16 periods are 16 periods
+    if (is_above(wavenumber, highest)) bits |= near_nyquist;
     if (modes < fewest) bits |= few_modes;
     return static_cast<std::uint8_t>(bits);
   }

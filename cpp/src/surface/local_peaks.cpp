@@ -8,6 +8,7 @@
 #include "asperity/surface.hpp"
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/rounding.hpp"
 
 namespace asperity {
 
@@ -135,9 +136,8 @@ class Neighbourhood {
       dy = std::min(std::abs(dy), ny_ - std::abs(dy));
       dx = std::min(std::abs(dx), nx_ - std::abs(dx));
     }
-    constexpr double rounding = 1e-12;  // peaks n pixels apart are not nearer than n times the pixel size
-    return std::hypot(static_cast<double>(dy) * pixel_[0], static_cast<double>(dx) * pixel_[1]) <
-           distance_ * (1 - rounding);
+    // peaks n pixels apart are not nearer than n times the pixel size
+    return is_below(std::hypot(static_cast<double>(dy) * pixel_[0], static_cast<double>(dx) * pixel_[1]), distance_);
   }
 
   Index ny_, nx_;

@@ -21,6 +21,7 @@ class RoughnessPieces {
  public:
   /// For functions as smooth as a Prony series makes them, and for such as have kinks at measured rows anywhere.
   static constexpr std::size_t levels = 4, levels_with_rows = 6;
+  static constexpr std::size_t least_rows = 8;  // of a table: of fewer panels are as quick
   /// What pieces have of the mean squares of what is not smooth of m and of the window, over theirs, at most.
   static constexpr double roughest(std::size_t level) {
     return 2e-6 / static_cast<double>(std::size_t{1} << (4 * level));
