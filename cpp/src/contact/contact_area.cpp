@@ -17,7 +17,6 @@
 #include "contact/solver/solver.hpp"
 #include "contact/validity.hpp"
 #include "numerics/arguments.hpp"
-#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -38,9 +37,14 @@ std::vector<double> wavenumbers_or_end(const Spectrum& spectrum, std::span<const
   return {wavenumber.begin(), wavenumber.end()};
 }
 
-/// The surface as far as the highest of the wavenumbers: the rest has no part in G there.
-std::vector<Segment> surface_up_to(const Spectrum& spectrum, std::span<const double> wavenumber) {
+/// The surface as far as the highest of the wavenumbers: the rest has no part in G there. With a rule of its own all of
+/// it, with the one kappa of the whole band: G grows with q, so the area never rises with magnification; with the kappa
+/// of the surface cut at each wavenumber it did, by up to 6 % from ring to ring (docs/explanation/partial_contact.md
+/// compares both with exact contacts).
+std::vector<Segment> surface_up_to(const ContactModel& model, const Spectrum& spectrum,
+                                   std::span<const double> wavenumber) {
   std::vector<Segment> surface = segments(spectrum);
+  if (has_own_rule(model.correction)) return surface;
   const double highest = std::ranges::max(wavenumber);
   while (surface.size() > 1 && surface.back().a >= highest) surface.pop_back();
   Segment& last = surface.back();
@@ -51,71 +55,58 @@ std::vector<Segment> surface_up_to(const Spectrum& spectrum, std::span<const dou
   return surface;
 }
 
-/// One for each wavenumber.
-std::vector<AreaG> area_gs(const ContactModel& model, const Spectrum& spectrum, std::span<const Segment> surface,
-                           std::span<const double> wavenumber) {
-  std::vector<AreaG> result;
-  for (const double q : wavenumber) {
-    heed();
-    result.emplace_back(model, spectrum, surface, q);
-  }
-  return result;
-}
-
-/// Calls visit(index of point, index of wavenumber, uncorrected-by-S G, shift) for every combination; G is
-/// negative where there is no contact at all.
+/// Calls visit(index of point, index of wavenumber, solver, shift) for every combination; where there is no contact at
+/// all the solver has nothing of the point.
 template <class Visit>
-void visit_g(const Spectrum& spectrum, std::span<const Segment> surface, const Rubber& rubber,
-             const ContactModel& model, std::span<const double> pressure, std::span<const double> velocity,
-             std::span<const double> wavenumber, Visit visit) {
+void visit_points(const Spectrum& spectrum, std::span<const Segment> surface, const Rubber& rubber,
+                  const ContactModel& model, std::span<const double> pressure, std::span<const double> velocity,
+                  std::span<const double> wavenumber, bool parts, Visit visit) {
   check_contact(model, pressure, velocity);
   check_frequencies(spectrum, rubber, velocity);
-  const double q1 = band(spectrum)[1];
-  const bool parts = std::ranges::any_of(wavenumber, [&](double q) { return q != q1; });
   Solver solver(spectrum, surface, rubber, model, {.hysteresis = false, .parts = parts});
   for (const std::size_t i : by_velocity(velocity)) {
     heed();
     const Shift shift = affine_shift(model.correction, spectrum, rubber, pressure[i], velocity[i], model.poisson_ratio);
-    if (shift.state == ContactState::no_contact) {
-      for (std::size_t j = 0; j < wavenumber.size(); ++j) visit(i, j, -1.0, shift);
-      continue;
-    }
     at_point(pressure[i], velocity[i], [&] {
-      solver.solve(pressure[i], velocity[i], shift.p);
+      if (shift.state != ContactState::no_contact) solver.solve(pressure[i], velocity[i], shift.p);
       for (std::size_t j = 0; j < wavenumber.size(); ++j) {
         heed_at(j);
-        visit(i, j, solver.g(wavenumber[j]), shift);
+        visit(i, j, solver, shift);
       }
     });
   }
 }
 
-/// The same by the rule of PartialContact, with the one kappa of the whole band: visit(index of point, index of
-/// wavenumber, kappa G, A / A0). G grows with q, so the area never rises with magnification; with the kappa of the
-/// surface cut at each wavenumber it did, by up to 6 % from ring to ring (docs/explanation/partial_contact.md
-/// compares both with exact contacts).
-template <class Visit>
-void visit_partial(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
-                   std::span<const double> pressure, std::span<const double> velocity,
-                   std::span<const double> wavenumber, Visit visit) {
-  check_contact(model, pressure, velocity);
-  check_frequencies(spectrum, rubber, velocity);
-  const SurfaceSegments whole(spectrum);
-  const double q1 = band(spectrum)[1];
-  const bool parts = std::ranges::any_of(wavenumber, [&](double q) { return q < q1; });
-  Solver solver(spectrum, whole.get(), rubber, model, {.parts = parts});
-  for (const std::size_t i : by_velocity(velocity)) {
-    heed();
-    at_point(pressure[i], velocity[i], [&] {
-      solver.solve(pressure[i], velocity[i], 1);
-      for (std::size_t j = 0; j < wavenumber.size(); ++j) {
-        heed_at(j);
-        const double g = solver.kappa() * solver.g(wavenumber[j]);
-        visit(i, j, g, wavenumber[j] == q1 ? solver.partial_area() : contact_share(g, model.form));
-      }
-    });
+/// The G with which Eq. 7 has the area at one of the wavenumbers, and that area, of points that touch.
+class Areas {
+ public:
+  Areas(const Spectrum& spectrum, const ContactModel& model, std::span<const Segment> surface,
+        std::span<const double> wavenumber)
+      : model_(model), own_rule_(has_own_rule(model.correction)), q1_(band(spectrum)[1]), wavenumber_(wavenumber) {
+    for (const double q : wavenumber) {
+      heed();
+      if (!own_rule_) by_s_.emplace_back(model, spectrum, surface, q);
+    }
   }
-}
+  double g(const Solver& solver, std::size_t j) {
+    const double g = solver.g(wavenumber_[j]);
+    return own_rule_ ? solver.kappa() * g : by_s_[j](g);
+  }
+  double operator()(const Solver& solver, std::size_t j) {
+    return own_rule_ && wavenumber_[j] == q1_ ? solver.partial_area() : contact_share(g(solver, j), model_.form);
+  }
+  /// Whether G is asked for inside the band.
+  [[nodiscard]] bool parts() const {
+    return std::ranges::any_of(wavenumber_, [&](double q) { return q != q1_; });
+  }
+
+ private:
+  const ContactModel& model_;
+  bool own_rule_;
+  double q1_;
+  std::span<const double> wavenumber_;
+  std::vector<AreaG> by_s_;
+};
 
 /// By the contacts of a scan, filtered at each wavenumber.
 std::vector<double> scan_area(const ScanContact& scan, const Spectrum& spectrum, const Rubber& rubber,
@@ -157,17 +148,12 @@ std::vector<double> contact_area(const Spectrum& given, const Rubber& rubber, co
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
   if (const auto* const scan = scan_of(model)) return scan_area(*scan, spectrum, rubber, model, pressure, velocity, q);
   std::vector<double> result(pressure.size() * q.size());
-  if (has_own_rule(model.correction)) {
-    visit_partial(spectrum, rubber, model, pressure, velocity, q,
-                  [&](std::size_t i, std::size_t j, double, double area) { result[i * q.size() + j] = area; });
-    return result;
-  }
-  const std::vector<Segment> surface = surface_up_to(spectrum, q);
-  std::vector<AreaG> area_g = area_gs(model, spectrum, surface, q);
-  visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
-          [&](std::size_t i, std::size_t j, double g, const Shift&) {
-            result[i * q.size() + j] = g < 0 ? 0 : contact_share(area_g[j](g), model.form);
-          });
+  const std::vector<Segment> surface = surface_up_to(model, spectrum, q);
+  Areas area(spectrum, model, surface, q);
+  visit_points(spectrum, surface, rubber, model, pressure, velocity, q, area.parts(),
+               [&](std::size_t i, std::size_t j, const Solver& solver, const Shift& shift) {
+                 if (shift.state != ContactState::no_contact) result[i * q.size() + j] = area(solver, j);
+               });
   return result;
 }
 
@@ -188,13 +174,17 @@ std::vector<Diagnostic> contact_notes(const Spectrum& given, const Rubber& rubbe
   double last = 0;
   ContactModel persson = model;  // by whose G the regimes of PartialContact are told
   if (has_own_rule(model.correction)) persson.correction = NoCorrection{};
-  visit_g(spectrum, surface, rubber, persson, pressure, velocity, {&q1, 1},
-          [&](std::size_t i, std::size_t, double g, const Shift& shift) {
-            ValidityFlags flags = g < 0 ? ValidityFlags{} : validity(g, shift.p);
-            if (velocity[i] != last) model_error.start(last = velocity[i]);
-            if (!std::isnan(model_error(g))) flags.regime = model_error.regime();
-            notes.add(shift, velocity[i], flags);
-          });
+  visit_points(spectrum, surface, rubber, persson, pressure, velocity, {&q1, 1}, false,
+               [&](std::size_t i, std::size_t, const Solver& solver, const Shift& shift) {
+                 ValidityFlags flags;
+                 if (velocity[i] != last) model_error.start(last = velocity[i]);
+                 if (shift.state != ContactState::no_contact) {
+                   const double g = solver.g(q1);
+                   flags = validity(g, shift.p);
+                   if (!std::isnan(model_error(g))) flags.regime = model_error.regime();
+                 }
+                 notes.add(shift, velocity[i], flags);
+               });
   return notes.texts();
 }
 
@@ -215,36 +205,24 @@ std::vector<double> correction_factor(const Spectrum& given, const Rubber& rubbe
   const AsSolved as_solved(given, model);
   const Spectrum& spectrum = as_solved.get();
   const std::vector<double> q = wavenumbers_or_end(spectrum, wavenumber);
-  const std::vector<Segment> surface = surface_up_to(spectrum, q);
+  const std::vector<Segment> surface = surface_up_to(model, spectrum, q);
   std::vector<double> result(pressure.size() * q.size());
-  if (has_own_rule(model.correction)) {
-    check_contact(model, pressure, velocity);
-    check_frequencies(spectrum, rubber, velocity);
-    const SurfaceSegments whole(spectrum);
-    Solver solver(spectrum, whole.get(), rubber, model, {.parts = true});
-    for (const std::size_t i : by_velocity(velocity)) {
-      at_point(pressure[i], velocity[i], [&] { solver.solve(pressure[i], velocity[i], 1); });
-      for (std::size_t j = 0; j < q.size(); ++j) {
-        heed();
-        result[i * q.size() + j] = solver.stress(q[j]);
-      }
-    }
-    return result;
-  }
+  const bool own_rule = has_own_rule(model.correction);
   const std::optional<SFunction> s = s_in_integrand(model.correction);
-  std::vector<AreaG> area_g = area_gs(model, spectrum, surface, q);
-  visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
-          [&](std::size_t i, std::size_t j, double g, const Shift& shift) {
-            double& factor = result[i * q.size() + j];
-            if (g < 0) {
-              factor = 0;
-            } else if (s) {
-              const double share = contact_share(g, model.form);
-              factor = share * (*s)(share);
-            } else {
-              factor = contact_share(area_g[j](g), model.form) / (shift.p * shift.p);
-            }
-          });
+  Areas area(spectrum, model, surface, q);
+  visit_points(spectrum, surface, rubber, model, pressure, velocity, q, own_rule || area.parts(),
+               [&](std::size_t i, std::size_t j, const Solver& solver, const Shift& shift) {
+                 if (shift.state == ContactState::no_contact) return;
+                 double& factor = result[i * q.size() + j];
+                 if (own_rule) {
+                   factor = solver.stress(q[j]);
+                 } else if (s) {
+                   const double share = contact_share(solver.g(q[j]), model.form);
+                   factor = share * (*s)(share);
+                 } else {
+                   factor = area(solver, j) / (shift.p * shift.p);
+                 }
+               });
   return result;
 }
 
@@ -270,17 +248,12 @@ std::vector<double> pressure_distribution(const Spectrum& given, const Rubber& r
     const double bell = std::exp(-from_nominal * from_nominal / (4 * g)) / std::sqrt(4 * pi * g);
     result[i] = -bell * std::expm1(-x / g) / pressure[i];
   };
-  if (has_own_rule(model.correction)) {
-    visit_partial(spectrum, rubber, model, pressure, velocity, q,
-                  [&](std::size_t i, std::size_t, double g, double) { at_g(i, g); });
-    return result;
-  }
-  const std::vector<Segment> surface = surface_up_to(spectrum, q);
-  AreaG area_g(model, spectrum, surface, wavenumber);
-  visit_g(spectrum, surface, rubber, model, pressure, velocity, q,
-          [&](std::size_t i, std::size_t, double g, const Shift&) {
-            if (g >= 0) at_g(i, area_g(g));
-          });
+  const std::vector<Segment> surface = surface_up_to(model, spectrum, q);
+  Areas area(spectrum, model, surface, q);
+  visit_points(spectrum, surface, rubber, model, pressure, velocity, q, area.parts(),
+               [&](std::size_t i, std::size_t j, const Solver& solver, const Shift& shift) {
+                 if (shift.state != ContactState::no_contact) at_g(i, area.g(solver, j));
+               });
   return result;
 }
 
