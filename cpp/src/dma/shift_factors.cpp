@@ -21,9 +21,9 @@ Eigen::MatrixXd about_reference(std::span<const double> covariance, const ShiftT
   const std::vector<double>& t = shifts.temperature();
   require_same_size("covariance", covariance.size(), "temperature squared", t.size() * t.size());
   const auto n = static_cast<Eigen::Index>(t.size());
-  const auto above = std::upper_bound(t.begin() + 1, t.end() - 1, shifts.reference());
-  const auto k = static_cast<Eigen::Index>(above - t.begin()) - 1;
-  const double share = std::clamp((shifts.reference() - *(above - 1)) / (*above - *(above - 1)), 0.0, 1.0);
+  const std::size_t i = interval_of(t, shifts.reference());
+  const auto k = static_cast<Eigen::Index>(i);
+  const double share = std::clamp((shifts.reference() - t[i]) / (t[i + 1] - t[i]), 0.0, 1.0);
   Eigen::MatrixXd less = Eigen::MatrixXd::Identity(n, n);
   less.col(k).array() -= 1 - share;
   less.col(k + 1).array() -= share;
@@ -83,11 +83,10 @@ ShiftValue ShiftTable::shift_at(double temperature) const {
     throw OutOfRange(argument("temperature") + " = " + in_kelvin(temperature) + ": shift factors are known in [" +
                          in_kelvin(temperature_.front()) + ", " + in_kelvin(temperature_.back()) + "]" + unit("K"),
                      "unknown-shift");
-  const auto above = std::upper_bound(temperature_.begin() + 1, temperature_.end() - 1, temperature);
-  const auto i = static_cast<std::size_t>(above - temperature_.begin());
-  const double from = temperature_[i - 1], step = temperature_[i] - from;
+  const std::size_t i = interval_of(temperature_, temperature);
+  const double from = temperature_[i], step = temperature_[i + 1] - from;
   const auto [value, slope] =
-      hermite(log10_a_T_[i - 1], slope_[i - 1], log10_a_T_[i], slope_[i], step, (temperature - from) / step);
+      hermite(log10_a_T_[i], slope_[i], log10_a_T_[i + 1], slope_[i + 1], step, (temperature - from) / step);
   return {value, slope};
 }
 

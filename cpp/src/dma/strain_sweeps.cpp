@@ -101,10 +101,9 @@ namespace {
 /// ln E at a strain inside of a sweep, linear in ln strain.
 double log_modulus(const StrainSweep& sweep, const std::vector<double>& modulus, double strain) {
   const std::vector<double>& e = sweep.strain();
-  const auto above = std::upper_bound(e.begin() + 1, e.end() - 1, strain);
-  const auto i = static_cast<std::size_t>(above - e.begin());
-  const double part = std::log(strain / e[i - 1]) / std::log(e[i] / e[i - 1]);
-  return (1 - part) * std::log(modulus[i - 1]) + part * std::log(modulus[i]);
+  const std::size_t i = interval_of(e, strain);
+  const double part = std::log(strain / e[i]) / std::log(e[i + 1] / e[i]);
+  return (1 - part) * std::log(modulus[i]) + part * std::log(modulus[i + 1]);
 }
 
 /// Means over sweeps, and their standard deviation about it.

@@ -16,6 +16,11 @@ inline std::vector<double> logarithms(const std::vector<double>& values) {
   return result;
 }
 
+/// The interval of rising numbers that holds `at`: i with x_i <= at < x_(i + 1), the first or the last one beyond them.
+inline std::size_t interval_of(std::span<const double> x, double at) {
+  return static_cast<std::size_t>(std::upper_bound(x.begin() + 1, x.end() - 1, at) - x.begin()) - 1;
+}
+
 struct ValueAndSlope {
   double value, slope;
 };
@@ -85,17 +90,12 @@ class Steffen {
 
   [[nodiscard]] std::span<const double> x() const { return x_; }
 
-  /// Interval that holds `at`: i with x_i <= at < x_(i + 1), the last one at the upper end.
-  [[nodiscard]] std::size_t interval(double at) const {
-    const auto above = std::upper_bound(x_.begin() + 1, x_.end() - 1, at);
-    return static_cast<std::size_t>(above - x_.begin()) - 1;
-  }
   /// Coefficients of the powers of x - x_i between x_i and x_(i + 1), from the constant up.
   [[nodiscard]] std::array<double, 4> cubic(std::size_t i) const {
     return hermite_powers(y_[i], slope_[i], y_[i + 1], slope_[i + 1], x_[i + 1] - x_[i]);
   }
   double operator()(double at) const {
-    const std::size_t i = interval(at);
+    const std::size_t i = interval_of(x_, at);
     const auto [y, slope, square, cube] = cubic(i);
     const double t = at - x_[i];
     return y + t * (slope + t * (square + t * cube));

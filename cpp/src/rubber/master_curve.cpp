@@ -131,9 +131,7 @@ std::span<const double> MasterCurve::knots() const { return table_->knots; }
 
 std::complex<double> MasterCurve::modulus(double angular_frequency) const {
   table_->check(angular_frequency);
-  const std::vector<double>& knots = table_->knots;
-  const auto above = std::upper_bound(knots.begin() + 1, knots.end() - 1, angular_frequency);
-  return table_->pieces[static_cast<std::size_t>(above - knots.begin())](angular_frequency);
+  return table_->pieces[interval_of(table_->knots, angular_frequency) + 1](angular_frequency);
 }
 
 AngularIntegrals MasterCurve::angular_integrals(double angular_frequency) const {

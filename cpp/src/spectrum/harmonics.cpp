@@ -8,6 +8,7 @@
 
 #include "numerics/arguments.hpp"
 #include "numerics/gauss_legendre.hpp"
+#include "numerics/interpolation.hpp"
 #include "numerics/rounding.hpp"
 #include "spectrum/segments.hpp"
 
@@ -85,8 +86,7 @@ std::vector<double> rows_of(const SelfAffineSpectrum& s) {
 
 HarmonicsAt::HarmonicsAt(const TabulatedSpectrum& table, double wavenumber) : all_(&table.harmonics()) {
   const std::vector<double>& q = table.wavenumber();
-  const auto above = std::ranges::upper_bound(q, wavenumber) - q.begin();
-  row_ = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above, 1, std::ssize(q) - 1)) - 1;
+  row_ = interval_of(q, wavenumber);
   share_ = std::clamp(std::log(wavenumber / q[row_]) / std::log(q[row_ + 1] / q[row_]), 0.0, 1.0);
 }
 

@@ -29,18 +29,14 @@ HeightMap row_of(const HeightMap& map, std::size_t y) {
   return {data, map.strides(), map.owner(), {1, map.shape()[1]}, map.pixel_size()};
 }
 
+double mean_of(std::span<const double> heights) {
+  return std::accumulate(heights.begin(), heights.end(), 0.0) / static_cast<double>(heights.size());
+}
+
 /// Heights of one side of their mean about it, the others at 0, less the mean of all; how many are of that side.
 double keep_side(std::span<double> heights, Part part) {
-  const auto count = static_cast<double>(heights.size());
-  const double mean = std::accumulate(heights.begin(), heights.end(), 0.0) / count;
-  double points = 0, sum = 0;
-  for (double& z : heights) {
-    const bool mine = part == Part::top ? z > mean : z < mean;
-    z = mine ? z - mean : 0;
-    points += mine;
-    sum += z;
-  }
-  for (double& z : heights) z -= sum / count;
+  const double points = keep_side(heights, mean_of(heights), part), mean = mean_of(heights);
+  for (double& z : heights) z -= mean;
   return points;
 }
 

@@ -310,13 +310,7 @@ std::pair<HeightMap, double> one_side(const HeightMap& map, std::optional<Detren
   const HeightMap flat = detrend ? map.detrend(*detrend) : map;
   const double mean = flat.statistics().mean;
   double points = 0;
-  HeightMap side = map_rows(flat, [&](std::size_t, std::span<double> row) {
-    for (double& z : row) {
-      const bool mine = part == Part::top ? z > mean : z < mean;
-      z = mine ? z - mean : 0;
-      points += mine;
-    }
-  });
+  HeightMap side = map_rows(flat, [&](std::size_t, std::span<double> row) { points += keep_side(row, mean, part); });
   const auto [ny, nx] = map.shape();
   return {std::move(side), points / (static_cast<double>(ny) * static_cast<double>(nx))};
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "asperity/spectrum.hpp"
@@ -84,6 +85,17 @@ struct Reliability {
     return static_cast<std::uint8_t>(bits);
   }
 };
+
+/// Heights on one side of a mean about it, the others at 0; how many are of that side.
+inline double keep_side(std::span<double> heights, double mean, Part part) {
+  double points = 0;
+  for (double& z : heights) {
+    const bool mine = part == Part::top ? z > mean : z < mean;
+    z = mine ? z - mean : 0;
+    points += mine;
+  }
+  return points;
+}
 
 struct Preparation {
   std::vector<double> wy, wx;  // window weights
