@@ -175,19 +175,23 @@ std::string text_of(const std::vector<Diagnostic>& notes, const MapRequest& requ
   return text.append(request.text);
 }
 
-/// A part of the work as the whole of it, of which progress is told.
-std::function<void(double)> part_of(const std::function<void(double)>& progress, double begin, double end) {
-  if (!progress) return {};
-  return [=](double share) { progress(begin + share * (end - begin)); };
-}
+/// Stages of the work, of which progress is told as if each took as long as any other.
+class Stages {
+ public:
+  Stages(const std::function<void(double)>& progress, int count) : progress_(progress), count_(count) {}
+  std::function<void(double)> next() {
+    if (!progress_) return {};
+    return [this, before = done_++](double share) { progress_((before + share) / count_); };
+  }
+
+ private:
+  const std::function<void(double)>& progress_;
+  int count_, done_ = 0;
+};
 
 unsigned threads_of(const MapRequest& request) {
   return request.threads > 0 ? request.threads : std::max(1u, std::thread::hardware_concurrency());
 }
-
-/// The share of the work that samples the solver, where there is a check after it; half of that is the tables' with
-/// heat.
-constexpr double sampling_share = 0.2;
 
 /// What goes with the heat of a map: ln a_T at its heights, and the rest from that, telling how far it is.
 struct WithHeat {
@@ -199,17 +203,15 @@ struct WithHeat {
 std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhesion>& adhesion,
                                 const MapRequest& request, const WithHeat* with_heat = nullptr) {
   const unsigned threads = threads_of(request);
-  const double sampled = request.checked == 0 ? 1 : sampling_share;
-  const double parts = 1.0 + (with_heat ? 1 : 0) + (frame.directional() ? 1 : 0), refining = sampled / parts;
-  const RefinedMap refined = refine(frame, request.rtol, threads, part_of(request.progress, 0, refining));
+  Stages stages(request.progress,
+                1 + (with_heat ? 1 : 0) + (frame.directional() ? 1 : 0) + (request.checked > 0 ? 1 : 0));
+  const RefinedMap refined = refine(frame, request.rtol, threads, stages.next());
   MapHeatTables beside;
-  if (with_heat)
-    beside = with_heat->tables(with_heat->shift(refined.heights), part_of(request.progress, refining, 2 * refining));
+  if (with_heat) beside = with_heat->tables(with_heat->shift(refined.heights), stages.next());
   MapCertificate certificate{.max_error = refined.max_error};
   if (frame.directional()) {
     const MapFrame across = frame.of_across();
-    const RefinedMap forces =
-        refine(across, request.rtol, threads, part_of(request.progress, sampled - refining, sampled));
+    const RefinedMap forces = refine(across, request.rtol, threads, stages.next());
     certificate.max_error = std::fmax(refined.max_error, forces.max_error);
     MapRequest silent = request;
     silent.text = {};
@@ -220,7 +222,7 @@ std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhes
   }
   const auto file = [&] { return map_file(frame, refined, adhesion, request, certificate, beside); };
   if (request.checked == 0) return file();
-  check(frame, file(), request, threads, part_of(request.progress, sampled, 1), certificate);
+  check(frame, file(), request, threads, stages.next(), certificate);
   return file();
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -64,6 +65,8 @@ class March {
 
 /// Rubber does not stand more [K].
 inline constexpr double highest_rubber_temperature = 700;
+/// Of ln a_T, over which no term of a rubber comes and goes: a quarter of a decade.
+inline constexpr double term_step = std::numbers::ln10 / 4;
 
 struct FixedPoint {
   Eigen::VectorXd theta;                        // at the grid's temperature points [K]

@@ -4,19 +4,13 @@
 #include <numbers>
 
 #include "contact/correction.hpp"
-#include "heat/flash_map.hpp"
+#include "heat/fixed_point.hpp"
 #include "numerics/differences.hpp"
 
 namespace asperity {
 
-namespace {
-
-constexpr double hottest = 1000;  // [K], to which a search for a temperature may go
-
-}  // namespace
-
 ShiftValue held_shift(const TemperatureShift& shift, double temperature) {
-  double at = std::fmin(temperature, hottest);
+  double at = std::fmin(temperature, 2 * highest_rubber_temperature);  // no search goes further
   if (const auto* table = std::get_if<ShiftTable>(&shift))
     at = std::clamp(at, table->temperature().front(), table->temperature().back());
   ShiftValue value = shift_at(shift, at);

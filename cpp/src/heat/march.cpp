@@ -45,7 +45,6 @@ March::March(FlashMap& map, double background, const VectorXd& cold_rise)
 
 /// The next place, over at most half a decade of a_T.
 std::optional<Place> March::next() {
-  constexpr double longest = 1.2;   // of ln a_T, over which no term of a rubber comes and goes
   constexpr double bend = 1.2;      // of the way to the next place over its projection
   constexpr double near_end = 0.5;  // of ln tau
   const double tau = at_.tau(), left = std::log(2 * highest_ / tau), last = direction_[at_.points - 1];
@@ -53,7 +52,7 @@ std::optional<Place> March::next() {
   const ShiftValue shift = shift_at(tau);
   const double rate = tau * std::numbers::ln10 * std::fabs(shift.slope);
   const double fastest = direction_.cwiseAbs().maxCoeff();
-  const double whole = std::fmin(std::log1p(longest / rate), std::fmax(left, 1)) / fastest;
+  const double whole = std::fmin(std::log1p(2 * term_step / rate), std::fmax(left, 1)) / fastest;
   double stride = stride_ > 0 ? std::fmin(whole, 2 * stride_) : whole;
   if (last * stride > left) {
     if (left < near_end) return {};
@@ -65,7 +64,7 @@ std::optional<Place> March::next() {
         solve(at_.x + stride * direction_, direction_, at_.s + stride, 0.01 * stride, stride_ > 0 ? &slopes_ : nullptr);
     if (!found || length_of(found->x - at_.x) > bend * stride) continue;
     // where rows of a table have the slope 0 only the next values tell
-    if (std::numbers::ln10 * std::fabs(shift_at(found->tau()).log10_a_T - shift.log10_a_T) > 2 * longest) continue;
+    if (std::numbers::ln10 * std::fabs(shift_at(found->tau()).log10_a_T - shift.log10_a_T) > 4 * term_step) continue;
     at_ = *found;
     stride_ = stride;
     turn();

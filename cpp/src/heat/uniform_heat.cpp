@@ -12,7 +12,6 @@ namespace asperity {
 
 namespace {
 
-constexpr double step = std::numbers::ln10 / 4;  // of ln(v a_T), over which no term of a rubber comes and goes
 /// What the profile may do: change eps by the factor `off`, and d ln F / d ln tau, which is below 1 where eps rises,
 /// from `most_growth` to that; beyond `most_growth_far`, wherever it is, it may do more. Measured, not derived:
 /// docs/explanation/heat.md.
@@ -39,7 +38,7 @@ void UniformHeat::take_steps(double background) {
       return Step{tau, std::log(tau), log_a(tau)};
     };
     // where rows of a table have the slope 0 only the next values tell
-    while (length > shortest && std::fabs(after(length).log_a - last.log_a) > 0.5 * step) length /= 2;
+    while (length > shortest && std::fabs(after(length).log_a - last.log_a) > 0.5 * term_step) length /= 2;
     steps_.push_back(after(length));
   }
 }
@@ -48,14 +47,14 @@ std::optional<double> UniformHeat::only_rise(FlashMap& map, const HeatPoint& poi
   if (steps_.empty()) take_steps(point.temperature);
   const auto [least, most] = std::ranges::minmax_element(steps_, {}, &Step::log_a);
   const double log_v = std::log(point.velocity);
-  const auto place = [&](double log_a) { return static_cast<long>(std::floor((log_v + log_a) / step)); };
+  const auto place = [&](double log_a) { return static_cast<long>(std::floor((log_v + log_a) / term_step)); };
   const long first = place(least->log_a);
   std::vector<double> log_heat, log_macro;
   for (long k = first; k <= place(most->log_a) + 1; ++k) {
     auto found = contacts_.find(k);
     if (found == contacts_.end()) {
       heed();
-      map.at_one_shift(static_cast<double>(k) * step - log_v);
+      map.at_one_shift(static_cast<double>(k) * term_step - log_v);
       found = contacts_.emplace(k, map.contact_heat()).first;
     }
     log_heat.push_back(std::log(map.last_heat(found->second)));
@@ -63,7 +62,7 @@ std::optional<double> UniformHeat::only_rise(FlashMap& map, const HeatPoint& poi
   }
   const auto at = [&](const std::vector<double>& column, double log_a) {
     const double last = static_cast<double>(column.size() - 1);
-    const double steps_up = std::clamp((log_v + log_a) / step - static_cast<double>(first), 0.0, last);
+    const double steps_up = std::clamp((log_v + log_a) / term_step - static_cast<double>(first), 0.0, last);
     const auto k = std::min(static_cast<std::size_t>(steps_up), column.size() - 2);
     return column[k] + (steps_up - static_cast<double>(k)) * (column[k + 1] - column[k]);
   };

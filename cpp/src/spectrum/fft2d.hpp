@@ -65,8 +65,8 @@ void for_each_column(const HeightMap& map, const Preparation& prepared, unsigned
     }
   });
 
-  constexpr std::size_t together = 64 / sizeof(std::complex<T>);  // one cache line of each row
-  constexpr std::size_t ahead = 32;                               // rows that are fetched before they are needed
+  constexpr std::size_t together = ColumnsTransform<T>::width;
+  constexpr std::size_t ahead = 32;  // rows that are fetched before they are needed
   const std::size_t blocks = (half + together - 1) / together;
   // columns behind each other in memory, a cache line apart from a power of two
   const std::size_t length = Scratch<std::complex<T>>::aligned(ny) + 8;
