@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity.base.arguments import broadcast, choice, number, number_or_none, shaped, vector
 from asperity.base.diagnostics import must_be
-from asperity.base.table import Column, Columns, Table
+from asperity.base.parameters import column
+from asperity.base.table import Table
 from asperity.base.value import value
 from asperity.correction import Reading
 
@@ -51,19 +52,9 @@ class Separation(Table):
         not given.
     """
 
-    effective: Any
-    rigid: Any
-    state: Any = None
-
-    def _columns(self) -> Columns:
-        axes = tuple(f"axis_{i}" for i in range(np.ndim(self.effective)))
-        variables = {
-            "effective": Column(axes, self.effective, "m", "effective separation"),
-            "rigid": Column(axes, self.rigid, "m", "rigid separation"),
-        }
-        if self.state is not None:
-            variables["state"] = Column(axes, self.state, "", "state of the contact")
-        return Columns({}, variables)
+    effective: Any = column("m", "effective separation")
+    rigid: Any = column("m", "rigid separation")
+    state: Any = column("", "state of the contact", default=None)
 
     def _draw(self, axes: Any) -> None:
         for name in ("effective", "rigid"):

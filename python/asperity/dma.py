@@ -25,11 +25,12 @@ from asperity.base.arguments import (
     vector,
 )
 from asperity.base.diagnostics import Argument, Note, refusal, unfit
+from asperity.base.parameters import column
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.rubber import Extrapolation, MasterCurve, PronySeries, Rubber, extrapolation_number
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
-from asperity.sweeps import Isotherm, draw_moduli, modulus_columns
+from asperity.sweeps import Isotherm, draw_moduli
 
 REDUCED = "Reduced frequency $a_T\\, \\omega$ [rad/s]"
 
@@ -53,10 +54,12 @@ class MasterPoints(Table):
         The isotherm that a point comes from: its index in rising temperature.
     """
 
-    angular_frequency: Vector
-    storage_modulus: Vector
-    loss_modulus: Vector
-    isotherm: Conversion[ArrayLike, NDArray[np.int64]]
+    angular_frequency: Vector = column("rad/s", "", "angular_frequency")
+    storage_modulus: Vector = column("Pa", "E'", "angular_frequency")
+    loss_modulus: Vector = column("Pa", "E''", "angular_frequency")
+    isotherm: Conversion[ArrayLike, NDArray[np.int64]] = column(
+        "1", "index of the isotherm", "angular_frequency"
+    )
 
     def __post_init__(self) -> None:
         for name, rows in self._arguments().items():
@@ -66,11 +69,6 @@ class MasterPoints(Table):
         if not np.all((origin >= 0) & (origin < 2**53) & (origin == np.floor(origin))):
             raise refusal("isotherm", origin, "whole numbers, 0 or more")
         self._set(isotherm=frozen(origin.astype(np.int64)))
-
-    def _columns(self) -> Columns:
-        columns = modulus_columns(self, "angular_frequency", "rad/s")
-        origin = Column(("angular_frequency",), self.isotherm, "1", "index of the isotherm")
-        return Columns(columns.coordinates, {**columns.variables, "isotherm": origin})
 
     def _draw(self, axes: Any) -> None:
         moduli = self.storage_modulus, self.loss_modulus

@@ -8,6 +8,7 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import Vector, frozen, number, number_or_none, real_array, vector
 from asperity.base.diagnostics import Argument
+from asperity.base.parameters import column
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.measured_spectrum import Window, core_map, prepared
@@ -26,9 +27,9 @@ class SpectralDensity(Table):
         C [m^4].
     """
 
-    wavenumber_y: Vector
-    wavenumber_x: Vector
-    density: Vector
+    wavenumber_y: Vector = column("1/m", "", "wavenumber_y")
+    wavenumber_x: Vector = column("1/m", "", "wavenumber_x")
+    density: Vector = column("m^4", "roughness spectrum C", "wavenumber_y", "wavenumber_x")
 
     def __post_init__(self) -> None:
         q_y, q_x = (
@@ -40,12 +41,6 @@ class SpectralDensity(Table):
             allowed = f"must have {(q_y.size, q_x.size)}, as the wavenumbers have"
             raise InvalidInput(Argument("density"), f" has shape {density.shape}: {allowed}")
         self._set(wavenumber_y=q_y, wavenumber_x=q_x, density=frozen(density))
-
-    def _columns(self) -> Columns:
-        axes = ("wavenumber_y", "wavenumber_x")
-        density = Column(axes, self.density, "m^4", "roughness spectrum C")
-        places = {name: Column((name,), getattr(self, name), "1/m") for name in axes}
-        return Columns(places, {"density": density})
 
     def _draw(self, axes: Any) -> None:
         from matplotlib.colors import LogNorm

@@ -27,12 +27,12 @@ from asperity.base.arguments import (
     whole,
 )
 from asperity.base.diagnostics import Argument, Note
-from asperity.base.parameters import parameter
+from asperity.base.parameters import column, parameter
 from asperity.base.quantities import RELAXED_MODULUS
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import CoreValue, value
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
-from asperity.sweeps import StrainSweep, draw_moduli, modulus_columns
+from asperity.sweeps import StrainSweep, draw_moduli
 
 Extrapolation = Literal["power-law", "clamp"]
 EXTRAPOLATIONS = (
@@ -238,9 +238,9 @@ class MasterCurve(_HasModulus):
         The methods raise it where they are asked outside of the measured range.
     """
 
-    angular_frequency: Vector
-    storage_modulus: Vector
-    loss_modulus: Vector
+    angular_frequency: Vector = column("rad/s", "", "angular_frequency")
+    storage_modulus: Vector = column("Pa", "E'", "angular_frequency")
+    loss_modulus: Vector = column("Pa", "E''", "angular_frequency")
     extrapolation: Extrapolation | None = None
     shift_factors: Conversion[HasShiftFactors | None, ShiftFactors | None] = ABSENT
     notes: tuple[Note, ...] = ()
@@ -330,9 +330,6 @@ class MasterCurve(_HasModulus):
         shifts, notes = shown.pop("shift_factors"), shown.pop("notes")
         known = {} if shifts is None else {"reference_temperature": shifts.reference_temperature}
         return shown | known | ({"notes": notes} if notes else {})
-
-    def _columns(self) -> Columns:
-        return modulus_columns(self, "angular_frequency", "rad/s")
 
     def _draw(self, axes: Any) -> None:
         draw_moduli(axes, self.angular_frequency, self.storage_modulus, self.loss_modulus)

@@ -19,9 +19,9 @@ from asperity.base.arguments import (
     over,
 )
 from asperity.base.diagnostics import Argument, must_be, refusal
-from asperity.base.parameters import parameter
+from asperity.base.parameters import column, parameter
 from asperity.base.quantities import DECADES, TEMPERATURE
-from asperity.base.table import Column, Columns, Table
+from asperity.base.table import Table
 from asperity.base.value import CoreValue, Value, value
 
 
@@ -229,18 +229,6 @@ class HasShiftFactors(Table):
         ends = float(self.temperature[0]), float(self.temperature[-1])
         return dict(zip(("lowest_temperature", "highest_temperature"), ends, strict=True))
 
-    def _columns(self) -> Columns:
-        rows = ("temperature",)
-        columns = {"log10_a_T": Column(rows, self.log10_a_T, "1", "shift factor")}
-        if self.standard_deviation is not None:
-            meaning = "standard deviation of log10_a_T"
-            columns["standard_deviation"] = Column(rows, self.standard_deviation, "1", meaning)
-        return Columns(
-            {"temperature": Column(rows, self.temperature, "K")},
-            columns,
-            {"reference_temperature": self.reference_temperature},
-        )
-
 
 @value
 class ShiftFactors(HasShiftFactors):
@@ -263,9 +251,12 @@ class ShiftFactors(HasShiftFactors):
     """
 
     reference_temperature: float
-    temperature: Vector
-    log10_a_T: Vector  # noqa: N815
-    standard_deviation: OptionalVector = ABSENT
+    temperature: Vector = column("K", "", "temperature")
+    log10_a_T: Vector = column("1", "shift factor", "temperature")  # noqa: N815
+    standard_deviation: OptionalVector = column(
+        "1", "standard deviation of log10_a_T", "temperature", default=ABSENT
+    )
+    _facts = ("reference_temperature",)
 
     def __post_init__(self) -> None:
         self._take()

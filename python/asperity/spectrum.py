@@ -6,11 +6,9 @@ from collections.abc import Mapping
 from functools import cached_property
 from typing import Any, ClassVar, Self
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import (
     ABSENT,
     Conversion,
@@ -22,15 +20,13 @@ from asperity.base.arguments import (
     over,
     shaped,
 )
-from asperity.base.diagnostics import Argument, Must, must_be, refusal
-from asperity.base.parameters import parameter
+from asperity.base.diagnostics import refusal
+from asperity.base.parameters import column, parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, LAST_WAVENUMBER, RMS_HEIGHT
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import CoreValue, value
-from asperity.spectrum_rows import Rows, two_axes
+from asperity.spectrum_rows import Flags, Grid, Rows, two_axes
 from asperity.surface import around, like
-
-Flags = Conversion[ArrayLike | None, NDArray[np.uint8] | None]
 
 
 class _Spectrum(Table):
@@ -259,38 +255,33 @@ class TabulatedSpectrum(Rows, _Spectrum):
         The columns differ in length, or an entry is out of its range.
     """
 
-    _unit = "m^4"
-    _label = "Roughness spectrum $C(q)$"
-    wavenumber: Vector
-    density: Vector
-    count: OptionalVector = ABSENT
-    standard_error: OptionalVector = ABSENT
-    flag: Flags = ABSENT
-    correlation: OptionalVector = ABSENT
+    wavenumber: Vector = column("1/m", "", "wavenumber")
+    density: Vector = column("m^4", "Roughness spectrum $C(q)$", "wavenumber")
+    count: OptionalVector = column("1", "modes averaged", "wavenumber", default=ABSENT)
+    standard_error: OptionalVector = column("m^4", "", "wavenumber", default=ABSENT)
+    flag: Flags = column("1", "why the row is not to be trusted", "wavenumber", default=ABSENT)
+    correlation: Grid = ABSENT
     skewness: float | None = None
     kurtosis: float | None = None
     curvature_kurtosis: float | None = None
     slope_ratio: float | None = None
-    cosine: OptionalVector = ABSENT
-    sine: OptionalVector = ABSENT
-    harmonic_error: OptionalVector = ABSENT
+    cosine: Grid = ABSENT
+    sine: Grid = ABSENT
+    harmonic_error: Grid = ABSENT
     q1: Conversion[float | None, float] = ABSENT
     preparation: str | None = None
     _beside: ClassVar[Mapping[str, Any]] = {"preparation": None}
+    _facts = (*Rows._facts, "slope_ratio", "q1", "preparation")
 
     def _take_harmonics(self) -> None:
         for name in ("cosine", "sine", "harmonic_error"):
             self._set(**{name: two_axes(getattr(self, name), name, "harmonics")})
-        if (self.cosine is None) != (self.sine is None):
-            missing = "sine" if self.sine is None else "cosine"
-            raise must_be(missing, "given with the other", " = None")
+        self._need("sine", "cosine")
+        self._need("cosine", "sine")
 
     def __post_init__(self) -> None:
-        for name in ("q1", "slope_ratio"):
-            self._set(**{name: number_or_none(getattr(self, name), name)})
-        if self.slope_ratio is not None and self.kurtosis is None:
-            allowed = Must(": must be "), "given with slope_ratio"
-            raise InvalidInput(Argument("kurtosis"), " = None", *allowed)
+        self._set(q1=number_or_none(self.q1, "q1"))
+        self._need("kurtosis", "slope_ratio")
         if not isinstance(self.preparation, str | None):
             raise refusal("preparation", self.preparation, "a text, or None")
         super().__post_init__()
@@ -305,11 +296,6 @@ class TabulatedSpectrum(Rows, _Spectrum):
     def q0(self) -> float:
         """Wavenumber of the first row [1/m]."""
         return float(self.wavenumber[0])
-
-    def _columns(self) -> Columns:
-        columns = super()._columns()
-        more = {"q1": self.q1} | stated(self.preparation)
-        return Columns(columns.coordinates, columns.variables, {**columns.attributes, **more})
 
     def _summary(self) -> dict[str, Any]:
         moments = {"q1": self.q1, "rms_height": self.rms_height, "rms_slope": self.rms_slope}
@@ -342,14 +328,12 @@ class LineSpectrum(Rows):
         The columns differ in length, or an entry is out of its range.
     """
 
-    _unit = "m^3"
-    _label = "Profile spectrum $C_{1D}(q)$"
-    wavenumber: Vector
-    density: Vector
-    count: OptionalVector = ABSENT
-    standard_error: OptionalVector = ABSENT
-    flag: Flags = ABSENT
-    correlation: OptionalVector = ABSENT
+    wavenumber: Vector = column("1/m", "", "wavenumber")
+    density: Vector = column("m^3", "Profile spectrum $C_{1D}(q)$", "wavenumber")
+    count: OptionalVector = column("1", "modes averaged", "wavenumber", default=ABSENT)
+    standard_error: OptionalVector = column("m^3", "", "wavenumber", default=ABSENT)
+    flag: Flags = column("1", "why the row is not to be trusted", "wavenumber", default=ABSENT)
+    correlation: Grid = ABSENT
     skewness: float | None = None
     kurtosis: float | None = None
     curvature_kurtosis: float | None = None

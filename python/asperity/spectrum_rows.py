@@ -1,46 +1,41 @@
 """Spectra that are given row by row: their columns, checked, as tables and as pictures."""
 
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import (
     Array,
+    Conversion,
     frozen,
     number,
-    number_or_none,
     real_array,
     vector,
-    vector_or_none,
 )
 from asperity.base.diagnostics import Argument, Must, must_be, must_have, valued
-from asperity.base.table import Column, Columns, Table
+from asperity.base.table import Table, declared_columns
 from asperity.surface import like
+
+Flags = Conversion[ArrayLike | None, NDArray[np.uint8] | None]
+Grid = Conversion[ArrayLike | None, NDArray[Any] | None]  # of two axes
 
 
 class Rows(Table):
     """What spectra that are given row by row can do alike."""
 
-    _unit: str
-    _label: str
     wavenumber: Any
     density: Any
     count: Any
     standard_error: Any
     flag: Any
     correlation: Any
-    skewness: Any
-    kurtosis: Any
-    curvature_kurtosis: Any
+    _facts: ClassVar[tuple[str, ...]] = ("skewness", "kurtosis", "curvature_kurtosis")
 
     def __post_init__(self) -> None:
-        for name in ("wavenumber", "density"):
-            self._set(**{name: vector(getattr(self, name), name)})
-        for name in ("count", "standard_error"):
-            self._set(**{name: vector_or_none(getattr(self, name), name)})
+        self._take()
         self._set(flag=_flags(self.flag))
         self._set(correlation=two_axes(self.correlation, "correlation", "lags"))
         self._take_harmonics()
@@ -48,17 +43,16 @@ class Rows(Table):
             column = getattr(self, name)
             if column is not None and column.size == 0:  # to the core, a column that is not given
                 raise must_have(name, "one for each wavenumber", " has 0 entries")
-        for name in ("skewness", "kurtosis", "curvature_kurtosis"):
-            self._set(**{name: number_or_none(getattr(self, name), name)})
-        if (self.skewness is None) != (self.kurtosis is None):
-            missing = "kurtosis" if self.kurtosis is None else "skewness"
-            allowed = Must(": must be "), "given with the other"
-            raise InvalidInput(Argument(missing), " = None", *allowed)
-        if self.curvature_kurtosis is not None and self.kurtosis is None:
-            allowed = Must(": must be "), "given with curvature_kurtosis"
-            raise InvalidInput(Argument("kurtosis"), " = None", *allowed)
+        self._need("kurtosis", "skewness", "curvature_kurtosis")
+        self._need("skewness", "kurtosis")
         of_core = [getattr(self, name) for name in self._of_core()]
         self._set(_core=getattr(_core, type(self).__name__)(*of_core))
+
+    def _need(self, needed: str, *others: str) -> None:
+        """Refuse one of the others without what it needs."""
+        for name in others:
+            if getattr(self, name) is not None and getattr(self, needed) is None:
+                raise must_be(needed, f"given with {name}", " = None")
 
     def _take_harmonics(self) -> None:
         """Check and keep harmonics, where the class has them."""
@@ -87,20 +81,6 @@ class Rows(Table):
         band = {"q0": float(self.wavenumber[0]), "q1": float(self.wavenumber[-1])}
         return {"rows": self.wavenumber.size, **band, "reliable": int(self.reliable.sum())}
 
-    def _columns(self) -> Columns:
-        row = ("wavenumber",)
-        variables = {"density": Column(row, self.density, self._unit, self._label)}
-        if self.count is not None:
-            variables["count"] = Column(row, self.count, "1", "modes averaged")
-        if self.standard_error is not None:
-            variables["standard_error"] = Column(row, self.standard_error, self._unit)
-        if self.flag is not None:
-            variables["flag"] = Column(row, self.flag, "1", "why the row is not to be trusted")
-        names = "skewness", "kurtosis", "curvature_kurtosis", "slope_ratio"
-        shape = {name: getattr(self, name, None) for name in names}
-        known = {name: number for name, number in shape.items() if number is not None}
-        return Columns({"wavenumber": Column(row, self.wavenumber, "1/m")}, variables, known)
-
     def _draw(self, axes: Any) -> None:
         shown, good = self.density > 0, self.reliable
         measured = self._draw_where(axes, shown & good, label="measured")
@@ -114,7 +94,8 @@ class Rows(Table):
         axes.set_xscale("log")
         if shown.any():
             axes.set_yscale("log")
-        axes.set(xlabel="Wavenumber $q$ [1/m]", ylabel=f"{self._label} [m$^{self._unit[-1]}$]")
+        unit, label, _ = declared_columns(type(self))["density"]
+        axes.set(xlabel="Wavenumber $q$ [1/m]", ylabel=f"{label} [m$^{unit[-1]}$]")
         if len(axes.get_legend_handles_labels()[1]) > 1:
             axes.legend(fontsize="small")
 

@@ -20,22 +20,9 @@ from asperity.base.arguments import (
     of_kind,
 )
 from asperity.base.diagnostics import Note, refusal
-from asperity.base.parameters import parameter
-from asperity.base.table import Column, Columns, Table
+from asperity.base.parameters import column
+from asperity.base.table import Table
 from asperity.base.value import CoreValue, value
-
-
-def modulus_columns(rows: Any, along: str, unit: str, **attributes: Any) -> Columns:
-    """Return E' and E'' of an object that has them along one of its attributes."""
-    dimension = (along,)
-    return Columns(
-        {along: Column(dimension, getattr(rows, along), unit)},
-        {
-            "storage_modulus": Column(dimension, rows.storage_modulus, "Pa", "E'"),
-            "loss_modulus": Column(dimension, rows.loss_modulus, "Pa", "E''"),
-        },
-        attributes,
-    )
 
 
 def draw_moduli(
@@ -85,10 +72,11 @@ class Isotherm(Table):
     """
 
     temperature: float
-    angular_frequency: Vector
-    storage_modulus: Vector
-    loss_modulus: Vector
+    angular_frequency: Vector = column("rad/s", "", "angular_frequency")
+    storage_modulus: Vector = column("Pa", "E'", "angular_frequency")
+    loss_modulus: Vector = column("Pa", "E''", "angular_frequency")
     notes: Conversion[Iterable[str] | None, tuple[Note, ...]] = ABSENT
+    _facts = ("temperature", "notes")
 
     def __post_init__(self) -> None:
         taken = self._take()
@@ -100,11 +88,6 @@ class Isotherm(Table):
             storage_modulus=frozen(core.storage_modulus()),
             loss_modulus=frozen(core.loss_modulus()),
             notes=core.notes(),
-        )
-
-    def _columns(self) -> Columns:
-        return modulus_columns(
-            self, "angular_frequency", "rad/s", temperature=self.temperature, notes=self.notes
         )
 
     def _draw(self, axes: Any) -> None:
@@ -141,13 +124,10 @@ class StrainSweep(Table, CoreValue):
 
     temperature: float
     angular_frequency: float
-    strain: Vector
-    storage_modulus: Vector
-    loss_modulus: Vector
-
-    def _columns(self) -> Columns:
-        at = {"temperature": self.temperature, "angular_frequency": self.angular_frequency}
-        return modulus_columns(self, "strain", "1", **at)
+    strain: Vector = column("1", "", "strain")
+    storage_modulus: Vector = column("Pa", "E'", "strain")
+    loss_modulus: Vector = column("Pa", "E''", "strain")
+    _facts = ("temperature", "angular_frequency")
 
     def _draw(self, axes: Any) -> None:
         moduli = self.storage_modulus, self.loss_modulus
@@ -205,13 +185,14 @@ class StrainFactors(Table):
     2.0
     """
 
-    strain: Vector = parameter(key_name="strain_amplitudes")
-    storage: Vector = parameter(key_name="storage_factors")
-    loss: Vector = parameter(key_name="loss_factors")
+    strain: Vector = column("1", "strain amplitude", "strain", key_name="strain_amplitudes")
+    storage: Vector = column("1", "factor of E'", "strain", key_name="storage_factors")
+    loss: Vector = column("1", "factor of E''", "strain", key_name="loss_factors")
     strain_per_slope: float = 0.5
     storage_error: OptionalVector = ABSENT
     loss_error: OptionalVector = ABSENT
     notes: tuple[Note, ...] = field(default=(), init=False)
+    _facts = ("strain_per_slope",)
 
     def __post_init__(self) -> None:
         taken = self._take()
@@ -221,17 +202,6 @@ class StrainFactors(Table):
             error = getattr(self, name)
             if error is not None and (error.shape != self.strain.shape or not (error >= 0).all()):
                 raise refusal(name, error, f"{self.strain.size} numbers of 0 or more")
-
-    def _columns(self) -> Columns:
-        over = ("strain",)
-        return Columns(
-            {"strain": Column(over, self.strain, "1", "strain amplitude")},
-            {
-                "storage": Column(over, self.storage, "1", "factor of E'"),
-                "loss": Column(over, self.loss, "1", "factor of E''"),
-            },
-            {"strain_per_slope": self.strain_per_slope},
-        )
 
     def _draw(self, axes: Any) -> None:
         axes.semilogx(self.strain, self.storage, "o-", color="C0", markersize=3, label="$E$′")

@@ -104,6 +104,15 @@ def parameter(
     return dataclasses.field(default=default, kw_only=kw_only, metadata=metadata)
 
 
+def column(
+    unit: str, meaning: str = "", *along: str, default: Any = MISSING, **declared: Any
+) -> Any:
+    """Return a field of a value that is a column of its table: a number a point, unless it goes
+    along dimensions of its own."""
+    metadata = {"column": (unit, meaning, along), "declared": declared}
+    return dataclasses.field(default=default, metadata=metadata)
+
+
 @cache
 def parameters(of: Callable[..., Any], *names: str) -> tuple[Parameter, ...]:
     """Return the parameters of a value or a function, or those of these names."""

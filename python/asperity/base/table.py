@@ -3,9 +3,9 @@
 import shlex
 import sys
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from importlib import import_module
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -36,12 +36,29 @@ class Columns:
     attributes: Mapping[str, Any] = field(default_factory=dict)
 
 
+def declared_columns(cls: Any) -> dict[str, tuple[str, str, tuple[str, ...]]]:
+    """Return unit, meaning and own dimensions of each field that is a column."""
+    return {one.name: one.metadata["column"] for one in fields(cls) if "column" in one.metadata}
+
+
 class Table(Value):
     """What measured objects and results can do beside other values."""
 
+    _facts: ClassVar[tuple[str, ...]] = ()  # attributes that hold for the whole table
+
     def _columns(self) -> Columns:
-        """Return the columns of the table."""
-        raise NotImplementedError
+        """Return the columns of the table: by default the fields that are declared as such."""
+        coordinates: dict[str, Column] = {}
+        variables: dict[str, Column] = {}
+        for name, (unit, meaning, along) in declared_columns(type(self)).items():
+            if (values := getattr(self, name)) is not None:
+                points = range(np.ndim(values) - len(along))
+                dimensions = (*(f"axis_{i}" for i in points), *along)
+                kind = coordinates if dimensions == (name,) else variables
+                kind[name] = Column(dimensions, values, unit, meaning)
+        facts = {name: getattr(self, name, None) for name in self._facts}
+        known = {name: one for name, one in facts.items() if one is not None}
+        return Columns(coordinates, variables, known)
 
     def _draw(self, axes: Any) -> None:
         """Draw the object into matplotlib axes."""

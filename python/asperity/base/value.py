@@ -9,10 +9,12 @@ import numpy as np
 
 from asperity import _core
 from asperity.base.diagnostics import html_items
-from asperity.base.parameters import parameter, parameters
+from asperity.base.parameters import column, parameter, parameters
 
 
-@dataclass_transform(frozen_default=True, kw_only_default=True, field_specifiers=(field, parameter))
+@dataclass_transform(
+    frozen_default=True, kw_only_default=True, field_specifiers=(field, parameter, column)
+)
 def value(cls: Any) -> Any:
     """Make a frozen dataclass whose fields are keyword-only arguments and pattern attributes."""
     decorate = dataclass(frozen=True, eq=False, repr=False, kw_only=True, match_args=False)

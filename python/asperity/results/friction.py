@@ -1,7 +1,6 @@
 """What `friction` returns: a table of points, with pictures of them."""
 
 from collections.abc import Sequence
-from dataclasses import field
 from typing import Any
 
 import numpy as np
@@ -10,15 +9,11 @@ from numpy.typing import ArrayLike, NDArray
 from asperity._core import InvalidInput
 from asperity.base.arguments import Array, Shape, broadcast, frozen, known, real_array
 from asperity.base.diagnostics import Argument, Note, Value, refusal
-from asperity.base.table import Column, Columns, Table
+from asperity.base.parameters import column
+from asperity.base.table import Column, Columns, Table, declared_columns
 from asperity.base.value import value
 from asperity.results.gradients import Gradients
 from asperity.spectrum import stated
-
-
-def column(unit: str, meaning: str) -> Any:
-    """Return a field that is a number a point, with what tables say of it."""
-    return field(metadata={"unit": unit, "meaning": meaning})
 
 
 class _WhenAsked:
@@ -125,17 +120,17 @@ class Friction(Table):
     extrapolated_share: Any = column("1", "share of the hysteresis beyond the measured frequencies")
     model_error: Any = column("1", "relative error of mu seen in exact sliding contacts")
     lateral: Any = column("1", "force across the sliding over the load")
-    direction: Any = None
-    temperature: Any = None
+    direction: Any = column("rad", "direction of sliding, from x towards y", default=None)
+    temperature: Any = column("K", "temperature", default=None)
     notes: tuple[Note, ...] = ()
     wavenumber: Array | None = None
     dmu_dlnq: Array | None = None
     decade_edges: Array | None = None
     decade_share: Array | None = None
     cold: "Friction | None" = None
-    macro_area: Any = None
-    gain: Any = None
-    branches: Any = None
+    macro_area: Any = column("1", "share of the surface that is heated", default=None)
+    gain: Any = column("1", "gain of the heat", default=None)
+    branches: Any = column("1", "number of steady states", default=None)
     temperature_profile: Array | None = None
     sliding_length: Any = _WhenAsked(None)
     gradients: Gradients | None = None
@@ -210,19 +205,9 @@ class Friction(Table):
 
 _SMALLEST = 1e-4
 SWEPT = ("pressure", "velocity", "direction", "temperature")
-HEAT = {
-    "temperature": ("K", "temperature"),
-    "macro_area": ("1", "share of the surface that is heated"),
-    "gain": ("1", "gain of the heat"),
-    "branches": ("1", "number of steady states"),
-}
-OPTIONAL = {"direction": ("rad", "direction of sliding, from x towards y"), **HEAT}
-COLUMNS = {
-    name: (one.metadata["unit"], one.metadata["meaning"])
-    for name, one in Friction.__dataclass_fields__.items()
-    if one.metadata
-}
-MEANINGS = COLUMNS | OPTIONAL
+MEANINGS = {name: (unit, said) for name, (unit, said, _) in declared_columns(Friction).items()}
+HEAT = {name: MEANINGS[name] for name in ("temperature", "macro_area", "gain", "branches")}
+COLUMNS = {name: said for name, said in MEANINGS.items() if name not in {"direction", *HEAT}}
 
 
 def small_friction_notes(mu: ArrayLike) -> tuple[Note, ...]:

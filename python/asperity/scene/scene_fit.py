@@ -7,7 +7,8 @@ import numpy as np
 
 from asperity.base.arguments import Array
 from asperity.base.diagnostics import Note
-from asperity.base.table import Column, Columns, Table
+from asperity.base.parameters import column
+from asperity.base.table import Columns, Table
 from asperity.base.value import value
 from asperity.scene.scene import scene_text
 
@@ -63,17 +64,17 @@ class SceneFit(Table):
     upper: Mapping[str, float]
     covariance: Array
     slopes: Mapping[str, str]
-    pressure: Array
-    velocity: Array
-    temperature: Array | None
-    measured: Array
-    mu: Array
-    left_out: Array | None
-    numbers_error: Array
-    inputs_error: Array
-    model_error: Array
-    band_lower: Array
-    band_upper: Array
+    pressure: Array = column("Pa", "nominal pressure", "point")
+    velocity: Array = column("m/s", "sliding velocity", "point")
+    temperature: Array | None = column("K", "temperature", "point")
+    measured: Array = column("1", "measured friction coefficient", "point")
+    mu: Array = column("1", "friction coefficient of the scene", "point")
+    left_out: Array | None = column("1", "friction coefficient of a fit without the point", "point")
+    numbers_error: Array = column("1", "relative error of the computation", "point")
+    inputs_error: Array = column("1", "relative error by the inputs", "point")
+    model_error: Array = column("1", "relative error of the theory", "point")
+    band_lower: Array = column("1", "lower end of the interval on mu", "point")
+    band_upper: Array = column("1", "upper end of the interval on mu", "point")
     scatter: float | None
     rms: float
     rms_left_out: float
@@ -99,25 +100,8 @@ class SceneFit(Table):
         }
 
     def _columns(self) -> Columns:
-        said = {
-            "pressure": ("Pa", "nominal pressure"),
-            "velocity": ("m/s", "sliding velocity"),
-            "temperature": ("K", "temperature"),
-            "measured": ("1", "measured friction coefficient"),
-            "mu": ("1", "friction coefficient of the scene"),
-            "left_out": ("1", "friction coefficient of a fit without the point"),
-            "numbers_error": ("1", "relative error of the computation"),
-            "inputs_error": ("1", "relative error by the inputs"),
-            "model_error": ("1", "relative error of the theory"),
-            "band_lower": ("1", "lower end of the interval on mu"),
-            "band_upper": ("1", "upper end of the interval on mu"),
-        }
-        columns = {
-            name: Column(("point",), getattr(self, name), *text)
-            for name, text in said.items()
-            if getattr(self, name) is not None
-        }
-        return Columns({}, columns, {"sentence": self.sentence, **self.value})
+        variables = super()._columns().variables
+        return Columns({}, variables, {"sentence": self.sentence, **self.value})
 
     def _draw(self, axes: Any) -> None:
         """Draw predicted over measured mu, with the interval, and the line where they agree."""

@@ -20,14 +20,15 @@ from asperity.base.arguments import (
 )
 from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal, valued
 from asperity.base.executors import in_order
-from asperity.base.table import Column, Columns, Table
+from asperity.base.parameters import column
+from asperity.base.table import Table
 from asperity.base.value import value
 from asperity.correction import Correction, PartialContact
 from asperity.dma import AnyRubber, MasterCurveBuild, rubber_of
 from asperity.friction import Branch, Friction, friction, known_shift
 from asperity.heating import Heating
 from asperity.prony_fit import PronyFit
-from asperity.results.friction import OPTIONAL
+from asperity.results.friction import MEANINGS
 from asperity.rubber import Rubber
 from asperity.scan_contact import ScanContact
 from asperity.self_affine_fit import AnySpectrum, spectrum_of
@@ -87,28 +88,16 @@ class FrictionBand(Table):
         modulus it is drawn from, and how many draws failed and were left out, if any.
     """
 
-    mu: Any
-    lower: Any
-    upper: Any
-    pressure: Any
-    velocity: Any
+    mu: Any = column("1", "friction coefficient")
+    lower: Any = column("1", "lower end of the band on mu")
+    upper: Any = column("1", "upper end of the band on mu")
+    pressure: Any = column("Pa", "nominal pressure")
+    velocity: Any = column("m/s", "sliding velocity")
     level: float
     samples: int
-    direction: Any = None
+    direction: Any = column(*MEANINGS["direction"], default=None)
     notes: tuple[Note, ...] = ()
-
-    def _columns(self) -> Columns:
-        axes = tuple(f"axis_{i}" for i in range(np.ndim(self.lower)))
-        variables = {
-            "mu": Column(axes, self.mu, "1", "friction coefficient"),
-            "lower": Column(axes, self.lower, "1", "lower end of the band on mu"),
-            "upper": Column(axes, self.upper, "1", "upper end of the band on mu"),
-            "pressure": Column(axes, self.pressure, "Pa", "nominal pressure"),
-            "velocity": Column(axes, self.velocity, "m/s", "sliding velocity"),
-        }
-        if self.direction is not None:
-            variables["direction"] = Column(axes, self.direction, *OPTIONAL["direction"])
-        return Columns({}, variables, {"level": self.level, "samples": self.samples})
+    _facts = ("level", "samples")
 
     @property
     def band(self) -> tuple[Any, Any]:
