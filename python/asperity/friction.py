@@ -19,7 +19,6 @@ from asperity.base.arguments import (
     frozen,
     number,
     of_kind,
-    real_array,
     whole,
 )
 from asperity.base.diagnostics import Argument, Note, fatal_first, unfit
@@ -28,7 +27,7 @@ from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
 from asperity.heating import Heating
 from asperity.results.directions import along_x_notes, over_directions
-from asperity.results.friction import COLUMNS, Friction, small_friction_notes
+from asperity.results.friction import COLUMNS, HEAT, Friction, small_friction_notes
 from asperity.results.gradients import Gradients
 from asperity.results.gradients import of_core as gradients_of_core
 from asperity.results.heat_notes import law_notes
@@ -44,6 +43,7 @@ BRANCHES = ("cold", "hot")  # in the order of the core's enumeration
 ROUGHLY = 1e-3  # rtol of the heat of which a note says the size
 
 
+@over_directions
 def friction(
     spectrum: AnySpectrum,
     rubber: AnyRubber,
@@ -151,26 +151,6 @@ def friction(
     >>> result.mu.round(4)
     array([0.002 , 0.0205])
     """
-    if real_array(direction, "direction").ndim:
-        return over_directions(
-            partial(
-                friction,
-                spectrum,
-                rubber,
-                poisson_ratio=poisson_ratio,
-                correction=correction,
-                adhesion=adhesion,
-                form=form,
-                rtol=rtol,
-                method=method,
-                strain_factors=strain_factors,
-                threads=threads,
-                shift=shift,
-            ),
-            {"pressure": pressure, "velocity": velocity, "temperature": temperature},
-            direction,
-            {"heating": heating, "contributions": contributions, "gradients": gradients},
-        )
     angle = number(direction, "direction")
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
     law = known_shift(solid, shift)
@@ -186,55 +166,41 @@ def friction(
     slopes = flag(gradients, "gradients")
     count = whole(threads, "threads", lowest=1, highest=MOST_THREADS)
     which = choice(branch, "branch", BRANCHES)
-    t = at[0] if at else None
-    shifted_by = None if law is None or t is None else temperature_shift_core(law)
-    points = (*parts, model, added, p, v, with_contributions, count, shifted_by, t)
-    along_x = along_x_notes(surface, angle)
-    turned = {"preparation": getattr(surface, "preparation", None)}
-    if surface.is_directional or isinstance(correction, ScanContact):
-        turned["direction"] = _shaped(np.full(np.size(p), angle), shape)
-    if heating is None:
-        if which:
-            raise unfit("branch", "hot", "needs heating=, without which there is one", '"hot"')
-        core_result = _core.friction(*points)  # which refuses what cannot be
-        absurd = implausible_notes(surface, solid, p, v)
-        result = _made(core_result, shape, (*solid.notes, *absurd, *along_x), turned)
-        if slopes:
-            of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t, None, which)
-            noted = (*result.notes, *_held_ratio(correction))
-            result = _with(result, gradients=gradients_of_core(of, shape), notes=noted)
-        if t is None:
-            return result
-        notes = (*result.notes, *law_notes(law, t))
-        return _with(result, temperature=_shaped(t, shape), notes=notes)
-    core = of_kind(heating, "heating", Heating)._core
-    if t is None:
+    t: Any = at[0] if at else None
+    heat = None if heating is None else of_kind(heating, "heating", Heating)._core
+    if heat is None and which:
+        raise unfit("branch", "hot", "needs heating=, without which there is one", '"hot"')
+    if heat is not None and t is None:
         raise InvalidInput(
             Argument("heating"), ": needs temperature= and shift=, from which the rubber is heated"
         )
-    hot, cold, hottest, area, gain, branches, profile = _core.flash_friction(*points, core, which)
-    without = _made(cold, shape, solid.notes, {})
-    extras = {
-        "cold": _with(
-            without, temperature=_shaped(t, shape), notes=(*without.notes, *law_notes(law, t))
-        ),
-        "temperature": _shaped(hottest, shape),
-        "macro_area": _shaped(area, shape),
-        "gain": _shaped(gain, shape),
-        "branches": _shaped(branches, shape),
-    }
-    absurd = implausible_notes(surface, solid, p, v)
-    result = _made(hot, shape, (*solid.notes, *absurd, *along_x), turned)
-    if result.wavenumber is not None:
-        extras["temperature_profile"] = frozen(profile).reshape(*shape, result.wavenumber.size)
-    length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, core)
+    shifted_by = None if law is None or t is None else temperature_shift_core(law)
+    points = (*parts, model, added, p, v, with_contributions, count, shifted_by, t)
+    more: dict[str, Any] = {"preparation": getattr(surface, "preparation", None)}
+    if surface.is_directional or isinstance(correction, ScanContact):
+        more["direction"] = _shaped(np.full(np.size(p), angle), shape)
+    if t is not None:
+        more["temperature"] = _shaped(t, shape)
+    if heat is None:
+        result = _core.friction(*points)  # which refuses what cannot be
+        of_law = () if t is None else law_notes(law, t)
+    else:
+        result, cold, hottest, *of_heat, profile = _core.flash_friction(*points, heat, which)
+        without = {"temperature": more["temperature"]}
+        more["cold"] = _made(cold, shape, solid.notes, without, law_notes(law, t))
+        of_law = law_notes(law, np.append(t, hottest))
+        for name, column in zip(HEAT, (hottest, *of_heat), strict=True):
+            more[name] = _shaped(column, shape)
+        if contributions:
+            more["temperature_profile"] = frozen(profile).reshape(*shape, len(result[2][0]))
+        length = partial(_core.sliding_length, *parts, model, added, p, v, shifted_by, t, heat)
+        more["sliding_length"] = lambda: _shaped(length(), shape)
     if slopes:
-        of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t, core, which)
-        extras["gradients"] = gradients_of_core(of, shape)
-        result = _with(result, notes=(*result.notes, *_held_ratio(correction)))
-    extras["sliding_length"] = lambda: _shaped(length(), shape)
-    extras["notes"] = (*result.notes, *law_notes(law, np.append(t, hottest)))
-    return _with(result, **extras)
+        of = _core.gradients(*parts, model, added, p, v, count, shifted_by, t, heat, which)
+        more["gradients"] = gradients_of_core(of, shape)
+        of_law = (*_held_ratio(correction), *of_law)
+    absurd, along_x = implausible_notes(surface, solid, p, v), along_x_notes(surface, angle)
+    return _made(result, shape, (*solid.notes, *absurd, *along_x), more, of_law)
 
 
 def _held_ratio(correction: Correction | None) -> tuple[Note, ...]:
@@ -248,10 +214,6 @@ def _held_ratio(correction: Correction | None) -> tuple[Note, ...]:
     return (Note(text, code="held-ratio"),)
 
 
-def _with(result: Friction, **more: Any) -> Friction:
-    return Friction._made({**result.__dict__, **more})
-
-
 def _shaped(flat: Any, shape: Shape) -> Any:
     """Return numbers of the points in the shape of the arguments, read-only."""
     array = np.asarray(flat)
@@ -259,15 +221,19 @@ def _shaped(flat: Any, shape: Shape) -> Any:
 
 
 def _made(
-    parts: tuple[Any, ...], shape: Shape, of_input: tuple[Note, ...], more: Mapping[str, Any]
+    parts: tuple[Any, ...],
+    shape: Shape,
+    of_input: tuple[Note, ...],
+    more: Mapping[str, Any],
+    last: tuple[Note, ...],
 ) -> Friction:
-    """Return a result from the core's parts of it and more, with the notes of what was given."""
+    """Return a result from the core's parts of it and more, with the notes of what was given and
+    others after all of them."""
     rows, of_contact, shares = parts
     columns = frozen(rows).reshape(-1, *shape) if shape else rows[:, 0].tolist()
     fields: dict[str, Any] = dict(zip(COLUMNS, columns, strict=True), **more)
-    fields["notes"] = tuple(
-        fatal_first((*small_friction_notes(fields["mu"]), *of_input, *of_contact))
-    )
+    notes = fatal_first((*small_friction_notes(fields["mu"]), *of_input, *of_contact))
+    fields["notes"] = (*notes, *last)
     if shares is not None:
         q, density, edges, share = map(frozen, shares)
         fields |= {"wavenumber": q, "dmu_dlnq": density.reshape(*shape, len(q))}

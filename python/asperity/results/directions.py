@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from functools import partial, wraps
+from typing import Any, ParamSpec
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +13,10 @@ from asperity.base.diagnostics import Argument, Note, Value, fatal_first, must_h
 from asperity.results.friction import Friction, joined
 from asperity.spectrum import Spectrum
 
+P = ParamSpec("P")
 LAY = 1.5  # ratio of the principal slopes above which directions matter: |C| differs by its square
+_POINTS = ("pressure", "velocity", "temperature")
+_OF_ONE = ("heating", "contributions", "gradients")  # arguments that go with one direction
 _ALONG_X = "along-x"
 _STEPS = 64  # of wavenumbers and of angles
 
@@ -37,30 +41,32 @@ def toward_each(
     return shape, each
 
 
-def over_directions(
-    solve: Callable[..., Friction],
-    points: Mapping[str, Any],
-    direction: ArrayLike,
-    alone: Mapping[str, Any],
-) -> Friction:
-    """Return the results of `solve` at points and directions, which broadcast.
+def over_directions(solve: Callable[P, Friction]) -> Callable[P, Friction]:
+    """Let a function of points take several directions of sliding, which broadcast with them."""
 
-    `alone` are arguments that take one direction, with what was given for them.
-    """
-    for name, given in alone.items():
-        if given:
-            raise refusal("direction", direction, f"one number with {name}")
-    given = {name: one for name, one in points.items() if one is not None}
-    shape, each = toward_each(direction, given)
-    if not each:
-        return solve(**points)  # which refuses no points
-    parts = [solve(**place, direction=angle) for angle, _, place in each]
-    result = joined(parts, shape, np.concatenate([where for _, where, _ in each]))
-    angles = np.broadcast_to(direction, shape)
-    notes = [note for part in parts for note in part.notes if note.code != _ALONG_X]
-    return Friction._made(
-        vars(result), direction=frozen(np.array(angles)), notes=tuple(fatal_first(once(notes)))
-    )
+    @wraps(solve)
+    def solved(*parts: P.args, **options: P.kwargs) -> Friction:
+        how: dict[str, Any] = {**options}
+        direction = how.get("direction", 0.0)
+        if not real_array(direction, "direction").ndim:
+            return solve(*parts, **options)
+        del how["direction"]
+        for name in _OF_ONE:
+            if how.get(name):
+                raise refusal("direction", direction, f"one number with {name}")
+        points = {name: how[name] for name in _POINTS if how.get(name) is not None}
+        shape, each = toward_each(direction, points)
+        call: Callable[..., Friction] = partial(solve, *parts)
+        if not each:
+            return call(**how)  # which refuses no points
+        results = [call(**{**how, **place}, direction=angle) for angle, _, place in each]
+        whole = joined(results, shape, np.concatenate([where for _, where, _ in each]))
+        angles = np.broadcast_to(direction, shape)
+        notes = once([one for of in results for one in of.notes if one.code != _ALONG_X])
+        more = {"direction": frozen(np.array(angles)), "notes": tuple(fatal_first(notes))}
+        return Friction._made(vars(whole), **more)
+
+    return solved
 
 
 def once(notes: Sequence[Note]) -> list[Note]:
