@@ -5,16 +5,15 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from asperity import _core
 from asperity.base.arguments import (
-    Vector,
+    Conversion,
+    Covariance,
     broadcast,
     choice,
-    covariance_matrix,
     frozen,
-    notes_of,
     number,
     real_array,
 )
@@ -92,21 +91,15 @@ class AdhesionFit(Adhesion, Table):
 
     reference_velocity: float
     width: float
-    covariance: Vector
+    covariance: Covariance
     residual: float
-    outliers: Vector
+    outliers: Conversion[ArrayLike, NDArray[np.bool_]]
     notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
-        plain = self.adhesion
-        self._set(
-            **plain._arguments(),
-            _core=plain._core,
-            covariance=covariance_matrix(self.covariance),
-            residual=number(self.residual, "residual"),
-            outliers=frozen(real_array(self.outliers, "outliers").astype(bool)),
-            notes=notes_of(self.notes, "notes"),
-        )
+        self._take()
+        outliers = frozen(real_array(self.outliers, "outliers").astype(bool))
+        self._set(_core=self.adhesion._core, outliers=outliers)
 
     @property
     def adhesion(self) -> Adhesion:

@@ -27,7 +27,7 @@ from asperity.base.arguments import (
 from asperity.base.diagnostics import Argument, Note, refusal, unfit
 from asperity.base.parameters import column
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import value
+from asperity.base.value import around, value
 from asperity.rubber import Extrapolation, MasterCurve, PronySeries, Rubber, extrapolation_number
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
 from asperity.sweeps import Isotherm, draw_moduli
@@ -261,9 +261,10 @@ def build_master_curve(
 def _built(parts: tuple[Any, ...], extrapolation: Extrapolation | None) -> MasterCurveBuild:
     """Return a build from the parts that the core's has."""
     curve, shifts, b_T, points, residual, covariance, notes = parts  # noqa: N806
-    shift_factors = ShiftFactors._of(shifts)
+    shift_factors = around(ShiftFactors, shifts)
+    beside = {"extrapolation": extrapolation, "shift_factors": shift_factors, "notes": notes}
     return MasterCurveBuild(
-        master_curve=MasterCurve._of(curve, extrapolation, shift_factors, notes),
+        master_curve=around(MasterCurve, curve, **beside),
         shift_factors=shift_factors,
         b_T=b_T,
         points=MasterPoints(**dict(zip(MasterPoints.__match_args__, points, strict=True))),

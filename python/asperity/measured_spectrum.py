@@ -9,9 +9,10 @@ from asperity import _core
 from asperity._core import InvalidInput
 from asperity.base.arguments import choice, flag, number_or_none, of_kind, whole
 from asperity.base.diagnostics import Argument, must_be, refusal
+from asperity.base.value import around
 from asperity.io.objects import surface_from
 from asperity.spectrum import LineSpectrum, TabulatedSpectrum
-from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, PixelSize, around
+from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, PixelSize
 from asperity.tiles.grid import TileSides, grid_of, tile_shape
 from asperity.tiles.share import Workers
 from asperity.tiles.source import DEFAULT, Source, source_of

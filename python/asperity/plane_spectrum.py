@@ -6,7 +6,7 @@ import numpy as np
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import Vector, frozen, number, number_or_none, real_array, vector
+from asperity.base.arguments import Vector, frozen, number_or_none, real_array, vector
 from asperity.base.diagnostics import Argument
 from asperity.base.parameters import column
 from asperity.base.table import Column, Columns, Table
@@ -97,9 +97,6 @@ class Anisotropy(Table):
     across: float
     along: float
     direction: float
-
-    def __post_init__(self) -> None:
-        self._set(**{name: number(entry, name) for name, entry in self._arguments().items()})
 
     @property
     def ratio(self) -> float:

@@ -1,7 +1,8 @@
 """A Prony series through a master curve."""
 
 import warnings
-from typing import Any, Literal, Self
+from collections.abc import Mapping
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -11,14 +12,13 @@ from asperity.base.arguments import (
     Conversion,
     Vector,
     choice,
-    notes_of,
     number,
     number_or_none,
     of_kind,
 )
 from asperity.base.diagnostics import Note
 from asperity.base.table import Columns
-from asperity.base.value import value
+from asperity.base.value import around, like, value
 from asperity.dma import MasterCurveBuild
 from asperity.rubber import MasterCurve, PronySeries
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
@@ -66,30 +66,25 @@ class PronyFit(PronySeries):
     extrapolation: PronyExtrapolation | None = None
     notes: tuple[Note, ...] = ()
     shift_factors: Conversion[HasShiftFactors | None, ShiftFactors | None] = ABSENT
+    _beside: ClassVar[Mapping[str, Any]] = dict.fromkeys(
+        ("storage_residual", "loss_residual", "causal", "extrapolation", "notes", "shift_factors")
+    )
 
     def __post_init__(self) -> None:
         self._take()
         names = ("equilibrium_modulus", "moduli", "relaxation_times")
         plain = PronySeries(**{name: getattr(self, name) for name in names})
         known = self.lowest_frequency, self.highest_frequency, _goes_beyond(self.extrapolation)
-        self._set(_core=plain._core.fitted_on(*known), notes=notes_of(self.notes, "notes"))
+        self._set(_core=plain._core.fitted_on(*known))
         if self.shift_factors is not None:
             self._set(shift_factors=shift_factors_of(self.shift_factors))
-
-    @classmethod
-    def _of(cls, core: Any, **others: Any) -> Self:
-        """Make a fit from the core's."""
-        lowest, highest = core.fitted_range()
-        return super()._of(core, lowest_frequency=lowest, highest_frequency=highest, **others)
 
     def shifted(self, a_T: float) -> "PronyFit":  # noqa: N803
         """Return the fit at another temperature: E(w) becomes E(a_T w), fitted on w / a_T.
 
         The new fit has no `shift_factors`.
         """
-        same = ("storage_residual", "loss_residual", "causal", "extrapolation", "notes")
-        core = self._core.shifted(number(a_T, "a_T"))
-        return PronyFit._of(core, **{name: getattr(self, name) for name in same})
+        return like(self, self._core.shifted(number(a_T, "a_T")), shift_factors=None)
 
     def _drawn_range(self) -> tuple[float, float]:
         return self.lowest_frequency, self.highest_frequency
@@ -160,7 +155,8 @@ def fit_prony(
     if not causal:
         for note in notes:
             warnings.warn(note, UserWarning, stacklevel=2)
-    return PronyFit._of(
+    return around(
+        PronyFit,
         core,
         storage_residual=storage_residual,
         loss_residual=loss_residual,

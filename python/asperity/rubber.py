@@ -1,9 +1,9 @@
 """Rubber: its complex modulus, a Prony series or a measured master curve, and angular integrals."""
 
 import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
-from typing import Any, Literal, Self
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,9 +17,7 @@ from asperity.base.arguments import (
     Vector,
     broadcast,
     choice,
-    frozen,
     many,
-    notes_of,
     number,
     over,
     real_array,
@@ -30,7 +28,7 @@ from asperity.base.diagnostics import Argument, Note
 from asperity.base.parameters import column, parameter
 from asperity.base.quantities import RELAXED_MODULUS
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import CoreValue, value
+from asperity.base.value import CoreValue, around, like, value
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
 from asperity.sweeps import StrainSweep, draw_moduli
 
@@ -175,20 +173,9 @@ class PronySeries(_HasModulus, CoreValue):
         """The largest |E| [Pa] that the data reach."""
         return self.equilibrium_modulus + float(np.sum(self.moduli))
 
-    @classmethod
-    def _of(cls, core: Any, **others: Any) -> Self:
-        """Make a series from the core's."""
-        return cls._made(
-            equilibrium_modulus=core.equilibrium_modulus(),
-            moduli=frozen(core.moduli()),
-            relaxation_times=frozen(core.relaxation_times()),
-            _core=core,
-            **others,
-        )
-
     def shifted(self, a_T: float) -> "PronySeries":  # noqa: N803
         """Return the rubber at another temperature: E(w) becomes E(a_T w), a_T > 1 is colder."""
-        return PronySeries._of(self._core.shifted(number(a_T, "a_T")))
+        return around(PronySeries, self._core.shifted(number(a_T, "a_T")))
 
     def _columns(self) -> Columns:
         rows = ("relaxation_time",)
@@ -244,10 +231,14 @@ class MasterCurve(_HasModulus):
     extrapolation: Extrapolation | None = None
     shift_factors: Conversion[HasShiftFactors | None, ShiftFactors | None] = ABSENT
     notes: tuple[Note, ...] = ()
+    _beside: ClassVar[Mapping[str, Any]] = {
+        "extrapolation": None,
+        "shift_factors": None,
+        "notes": (),
+    }
 
     def __post_init__(self) -> None:
         self._take()
-        self._set(notes=notes_of(self.notes, "notes"))
         rows = self.angular_frequency, self.storage_modulus, self.loss_modulus
         self._set(_core=_core.MasterCurve(*rows, extrapolation_number(self.extrapolation)))
         if self.shift_factors is not None:
@@ -258,32 +249,12 @@ class MasterCurve(_HasModulus):
         """The largest |E| [Pa] that the data reach."""
         return float(np.max(np.hypot(self.storage_modulus, self.loss_modulus)))
 
-    @classmethod
-    def _of(
-        cls,
-        core: Any,
-        extrapolation: Extrapolation | None,
-        shift_factors: ShiftFactors | None = None,
-        notes: tuple[Note, ...] = (),
-    ) -> Self:
-        """Make a curve from the core's."""
-        return cls._made(
-            angular_frequency=frozen(core.angular_frequency()),
-            storage_modulus=frozen(core.storage_modulus()),
-            loss_modulus=frozen(core.loss_modulus()),
-            extrapolation=extrapolation,
-            shift_factors=shift_factors,
-            notes=notes,
-            _core=core,
-        )
-
     def shifted(self, a_T: float) -> "MasterCurve":  # noqa: N803
         """Return the rubber at another temperature: E(w) becomes E(a_T w), a_T > 1 is colder.
 
         The new curve has no `shift_factors`.
         """
-        core = self._core.shifted(number(a_T, "a_T"))
-        return MasterCurve._of(core, self.extrapolation, notes=self.notes)
+        return like(self, self._core.shifted(number(a_T, "a_T")), shift_factors=None)
 
     def at_strain(
         self,
@@ -323,7 +294,7 @@ class MasterCurve(_HasModulus):
         core, notes = _core.at_strain(self._core, known._core, size, cores)
         for note in notes:
             warnings.warn(note, UserWarning, stacklevel=2)
-        return MasterCurve._of(core, self.extrapolation, known, (*self.notes, *notes))
+        return like(self, core, shift_factors=known, notes=(*self.notes, *notes))
 
     def _summary(self) -> dict[str, Any]:
         shown = self._arguments()

@@ -5,14 +5,11 @@ from __future__ import annotations
 from typing import Any, Literal, get_args
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity.base.arguments import (
-    Array,
-    Conversion,
+    Covariance,
     choice,
-    covariance_matrix,
     frozen,
     number,
     number_or_none,
@@ -21,9 +18,9 @@ from asperity.base.arguments import (
 )
 from asperity.base.diagnostics import refusal
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import value
+from asperity.base.value import around, value
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
-from asperity.surface import HeightMap, around, pixel_sizes
+from asperity.surface import HeightMap, pixel_sizes
 
 FitMethod = Literal["least-squares", "slope"]
 Rolloff = Literal["find", "require", "none"]
@@ -50,14 +47,13 @@ class SelfAffineFit(Table):
     """
 
     spectrum: SelfAffineSpectrum
-    covariance: Conversion[ArrayLike, Array]
+    covariance: Covariance
     residual: float
     rows: int
 
     def __post_init__(self) -> None:
+        self._take()
         of_kind(self.spectrum, "spectrum", SelfAffineSpectrum)
-        self._set(covariance=covariance_matrix(self.covariance))
-        self._set(residual=number(self.residual, "residual"), rows=whole(self.rows, "rows"))
 
     @property
     def rms_height(self) -> float:

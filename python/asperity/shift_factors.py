@@ -1,7 +1,7 @@
 """Shift factors over temperature, and the laws that are fitted to them."""
 
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +14,6 @@ from asperity.base.arguments import (
     OptionalVector,
     Vector,
     brief,
-    frozen,
     number,
     over,
 )
@@ -265,17 +264,6 @@ class ShiftFactors(HasShiftFactors):
             _core=_core.ShiftFactors(
                 self.reference_temperature, self.temperature, self.log10_a_T, deviation
             )
-        )
-
-    @classmethod
-    def _of(cls, core: Any) -> Self:
-        """Make shift factors from the core's, which have standard deviations."""
-        return cls._made(
-            reference_temperature=core.reference_temperature(),
-            temperature=frozen(core.temperature()),
-            log10_a_T=frozen(core.log10_a_T()),
-            standard_deviation=frozen(core.standard_deviation()),
-            _core=core,
         )
 
     def _draw(self, axes: Any) -> None:

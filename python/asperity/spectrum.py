@@ -24,9 +24,8 @@ from asperity.base.diagnostics import refusal
 from asperity.base.parameters import column, parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, LAST_WAVENUMBER, RMS_HEIGHT
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import CoreValue, value
+from asperity.base.value import CoreValue, around, like, value
 from asperity.spectrum_rows import Flags, Grid, Rows, two_axes
-from asperity.surface import around, like
 
 
 class _Spectrum(Table):

@@ -17,7 +17,7 @@ from asperity.base.arguments import (
 )
 from asperity.base.diagnostics import Argument, Must, must_be, must_have, valued
 from asperity.base.table import Table, declared_columns
-from asperity.surface import like
+from asperity.base.value import like
 
 Flags = Conversion[ArrayLike | None, NDArray[np.uint8] | None]
 Grid = Conversion[ArrayLike | None, NDArray[Any] | None]  # of two axes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import field
 from math import isfinite
-from typing import Any, Literal, Self, TypeVar, get_args
+from typing import Any, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,33 +24,14 @@ from asperity.base.arguments import (
 from asperity.base.diagnostics import must_be, refusal
 from asperity.base.iso_25178 import height_parameters, measured_parameters
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import Value, value
+from asperity.base.value import around, value
 
 Detrend = Literal["offset", "plane", "quadratic"]
 DETRENDS: tuple[Detrend, ...] = get_args(Detrend)  # in the order of the core's enumeration
 Heights = Conversion[ArrayLike, NDArray[Any]]
 PixelSize = Conversion[float | tuple[float, float], tuple[float, float]]
-Kind = TypeVar("Kind", bound=Value)
 
 _MOST_PIXELS = 1000  # along a side of a picture; a larger map is thinned out
-
-
-def around(kind: type[Kind], core: Any, **beside: Any) -> Kind:
-    """Return an object of the package around one that the core made; its arrays are read-only.
-
-    `beside` are fields that the core does not know, by default those of the class.
-    """
-    of_core = {name: getattr(core, name) for name in kind._of_core()}
-    fields = {**of_core, **kind._beside, **beside}
-    for entry in fields.values():
-        if isinstance(entry, np.ndarray):
-            frozen(entry)
-    return kind._made(_core=core, **fields)
-
-
-def like(one: Kind, core: Any) -> Kind:
-    """Return what the core made of an object, with the fields that it does not know."""
-    return around(type(one), core, **{name: getattr(one, name) for name in one._beside})
 
 
 def pixel_sizes(sizes: Any) -> tuple[float, float]:

@@ -82,13 +82,8 @@ class Isotherm(Table):
         taken = self._take()
         notes = None if self.notes is None else notes_of(self.notes, "notes")
         core = _core.Isotherm(*taken.values(), notes)
-        self._set(
-            _core=core,
-            angular_frequency=frozen(core.angular_frequency()),
-            storage_modulus=frozen(core.storage_modulus()),
-            loss_modulus=frozen(core.loss_modulus()),
-            notes=core.notes(),
-        )
+        rows = {name: frozen(getattr(core, name)) for name in (*taken,)[1:]}
+        self._set(_core=core, **rows, notes=core.notes)
 
     def _draw(self, axes: Any) -> None:
         draw_moduli(

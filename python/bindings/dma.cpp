@@ -18,10 +18,10 @@ using Vector = std::vector<double>;
 
 void bind_shift_factors(py::module_& m) {
   bind_made<ShiftTable, double, Vector, Vector, Vector>(m, "ShiftFactors")
-      .def("reference_temperature", &ShiftTable::reference)
-      .def("temperature", [](const ShiftTable& s) { return array_of(s.temperature()); })
-      .def("log10_a_T", [](const ShiftTable& s) { return array_of(s.log10_a_T()); })
-      .def("standard_deviation", [](const ShiftTable& s) { return array_of(s.standard_deviation()); })
+      .def_property_readonly("reference_temperature", &ShiftTable::reference)
+      .def_property_readonly("temperature", [](const ShiftTable& s) { return array_of(s.temperature()); })
+      .def_property_readonly("log10_a_T", [](const ShiftTable& s) { return array_of(s.log10_a_T()); })
+      .def_property_readonly("standard_deviation", [](const ShiftTable& s) { return array_of(s.standard_deviation()); })
       .def("shift_factor",
            [](const ShiftTable& s, const Array& temperature) {
              return computed([&] {
@@ -70,10 +70,10 @@ void bind_sweeps(py::module_& m) {
         if (!notes) return Isotherm(temperature, vector_of(w), vector_of(storage), vector_of(loss));
         return Isotherm(temperature, vector_of(w), vector_of(storage), vector_of(loss), notes_of(*notes));
       }))
-      .def("angular_frequency", [](const Isotherm& s) { return array_of(s.angular_frequency()); })
-      .def("storage_modulus", [](const Isotherm& s) { return array_of(s.storage_modulus()); })
-      .def("loss_modulus", [](const Isotherm& s) { return array_of(s.loss_modulus()); })
-      .def("notes", [](const Isotherm& s) { return tuple_of(s.notes()); });
+      .def_property_readonly("angular_frequency", [](const Isotherm& s) { return array_of(s.angular_frequency()); })
+      .def_property_readonly("storage_modulus", [](const Isotherm& s) { return array_of(s.storage_modulus()); })
+      .def_property_readonly("loss_modulus", [](const Isotherm& s) { return array_of(s.loss_modulus()); })
+      .def_property_readonly("notes", [](const Isotherm& s) { return tuple_of(s.notes()); });
   bind_made<StrainSweep, double, double, Vector, Vector, Vector>(m, "StrainSweep");
   bind_made<StrainFactors, Vector, Vector, Vector, double>(m, "StrainFactors");
 }

@@ -92,18 +92,16 @@ py::array effective_moduli(const Array& modulus, const Array& poisson_ratio, con
 
 void bind_rubber(py::module_& m) {
   auto prony = bind_made<PronySeries, double, std::vector<double>, std::vector<double>>(m, "PronySeries");
-  prony.def("equilibrium_modulus", &PronySeries::equilibrium_modulus)
-      .def("moduli", [](const PronySeries& series) { return array_of(series.moduli()); })
-      .def("relaxation_times", [](const PronySeries& series) { return array_of(series.relaxation_times()); })
+  prony.def_property_readonly("equilibrium_modulus", &PronySeries::equilibrium_modulus)
+      .def_property_readonly("moduli", [](const PronySeries& series) { return array_of(series.moduli()); })
+      .def_property_readonly("relaxation_times",
+                             [](const PronySeries& series) { return array_of(series.relaxation_times()); })
       .def("fitted_on",
            [](const PronySeries& series, double lowest, double highest, bool extrapolated) {
              return series.fitted_on({lowest, highest}, extrapolated);
            })
-      .def("fitted_range",
-           [](const PronySeries& series) {
-             const FrequencyRange range = series.fitted_range().value();
-             return py::make_tuple(range.lowest, range.highest);
-           })
+      .def_property_readonly("lowest_frequency", [](const PronySeries& s) { return s.fitted_range().value().lowest; })
+      .def_property_readonly("highest_frequency", [](const PronySeries& s) { return s.fitted_range().value().highest; })
       .def("extrapolated_shares", &extrapolated_shares<PronySeries>);
   bind_rubber(prony);
 
@@ -112,9 +110,9 @@ void bind_rubber(py::module_& m) {
       .def(py::init([](const Array& w, const Array& storage, const Array& loss, std::optional<Extrapolation> beyond) {
         return released([&] { return MasterCurve(vector_of(w), vector_of(storage), vector_of(loss), beyond); });
       }))
-      .def("angular_frequency", [](const MasterCurve& c) { return array_of(c.angular_frequency()); })
-      .def("storage_modulus", [](const MasterCurve& c) { return array_of(c.storage_modulus()); })
-      .def("loss_modulus", [](const MasterCurve& c) { return array_of(c.loss_modulus()); })
+      .def_property_readonly("angular_frequency", [](const MasterCurve& c) { return array_of(c.angular_frequency()); })
+      .def_property_readonly("storage_modulus", [](const MasterCurve& c) { return array_of(c.storage_modulus()); })
+      .def_property_readonly("loss_modulus", [](const MasterCurve& c) { return array_of(c.loss_modulus()); })
       .def("extrapolated_shares", &extrapolated_shares<MasterCurve>);
   bind_rubber(curve);
 

@@ -32,6 +32,7 @@ class Conversion(Protocol[Input, Output]):
 
 
 Vector = Conversion[ArrayLike, Array]
+Covariance = Conversion[ArrayLike, NDArray[Any]]  # of three parameters
 OptionalVector = Conversion[ArrayLike | None, Array | None]
 MOST_THREADS = 1024  # more would be a slip
 ABSENT: Any = None  # the default of a field whose type is Conversion
@@ -164,13 +165,13 @@ def vector_or_none(value: Any, name: str) -> Array | None:
     return None if value is None else vector(value, name)
 
 
-def covariance_matrix(value: Any) -> Array:
+def covariance_matrix(value: Any, name: str) -> Array:
     """Return the covariance of three parameters, read-only."""
-    matrix = real_array(value, "covariance")
+    matrix = real_array(value, name)
     if matrix.shape != (3, 3):
-        raise must_be("covariance", "(3, 3)", f" has shape {matrix.shape}")
+        raise must_be(name, "(3, 3)", f" has shape {matrix.shape}")
     if not np.isfinite(matrix).all() or np.diag(matrix).min() < 0:
-        raise refusal("covariance", value, "finite, its diagonal not negative")
+        raise refusal(name, value, "finite, its diagonal not negative")
     return frozen(np.array(matrix, order="C"))
 
 

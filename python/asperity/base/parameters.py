@@ -13,15 +13,20 @@ from functools import cache
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from asperity.base.arguments import (
+    Covariance,
     OptionalVector,
     Vector,
     choice,
+    covariance_matrix,
     flag,
+    notes_of,
     number,
     number_or_none,
     vector,
     vector_or_none,
+    whole,
 )
+from asperity.base.diagnostics import Note
 from asperity.base.quantities import Quantity
 
 KEY_UNITS = {  # by how keys of scenes end, the longest first
@@ -43,7 +48,10 @@ _CHECKS: dict[Any, Callable[[Any, str], Any]] = {
     float | None: number_or_none,
     Vector: vector,
     OptionalVector: vector_or_none,
+    Covariance: covariance_matrix,
     bool: flag,
+    int: whole,
+    tuple[Note, ...]: notes_of,
 }
 
 

@@ -3,13 +3,15 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from html import escape
-from typing import Any, ClassVar, Self, dataclass_transform
+from typing import Any, ClassVar, Self, TypeVar, dataclass_transform
 
 import numpy as np
 
 from asperity import _core
 from asperity.base.diagnostics import html_items
 from asperity.base.parameters import column, parameter, parameters
+
+Kind = TypeVar("Kind", bound="Value")
 
 
 @dataclass_transform(
@@ -33,7 +35,8 @@ class Value:
     __hash__ = None  # type: ignore[assignment]  # equal arrays have no equal hash
 
     def __post_init__(self) -> None:
-        """Make arrays read-only, in a class that has nothing else to check."""
+        """Check fields by their types, and make arrays read-only."""
+        self._take()
         for name, entry in self._arguments().items():
             if isinstance(entry, np.ndarray):
                 shown = entry.view()
@@ -98,6 +101,25 @@ class CoreValue(Value):
 
     def __post_init__(self) -> None:
         self._set(_core=getattr(_core, type(self).__name__)(*self._take().values()))
+
+
+def around(kind: type[Kind], core: Any, **beside: Any) -> Kind:
+    """Return an object of the package around one that the core made; its arrays are read-only.
+
+    `beside` are fields that the core does not know, by default those of the class.
+    """
+    of_core = {name: getattr(core, name) for name in kind._of_core()}
+    fields = {**of_core, **kind._beside, **beside}
+    for entry in fields.values():
+        if isinstance(entry, np.ndarray):
+            entry.setflags(write=False)
+    return kind._made(_core=core, **fields)
+
+
+def like(one: Kind, core: Any, **beside: Any) -> Kind:
+    """Return what the core made of an object, with the fields that it does not know, or others."""
+    kept = {name: getattr(one, name) for name in one._beside}
+    return around(type(one), core, **{**kept, **beside})
 
 
 def _made_anew(kind: type[Value], arguments: dict[str, Any]) -> Value:

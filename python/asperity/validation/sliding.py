@@ -10,9 +10,9 @@ from asperity import _core
 from asperity.base.arguments import Array, frozen, number, of_kind
 from asperity.base.diagnostics import Note, fatal_first, refusal
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import value
+from asperity.base.value import around, value
 from asperity.dma import AnyRubber, rubber_of
-from asperity.surface import HeightMap, around, draw_map
+from asperity.surface import HeightMap, draw_map
 
 __all__ = ["SlidingContact", "SlidingStep", "slide"]
 
