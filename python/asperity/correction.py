@@ -8,11 +8,12 @@ from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, vector
+from asperity.base.arguments import Array, frozen, vector
 from asperity.base.diagnostics import Argument, Must, must_be, valued
 from asperity.base.parameters import parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, HEIGHT, RMS_HEIGHT, SPACING
 from asperity.base.value import CoreValue, Value, value
+from asperity.io.fields import rename_in_errors
 from asperity.scan_contact import ScanContact
 from asperity.surface import HeightMap
 
@@ -229,8 +230,7 @@ class LocalPeaks(Value):
 
     def __post_init__(self) -> None:
         self._take()
-        heights, z_max, _ = _profile(self)
-        self._set(heights=heights, z_max=z_max, _core=_core.LocalPeaks(heights, z_max))
+        self._set(_core=_profile(self)[0])
 
     @property
     def shift_factor(self) -> float:
@@ -331,14 +331,13 @@ class PeaksThenGreenwoodWilliamson(Value):
 
     def __post_init__(self) -> None:
         reading = self._take()["reading"]
-        heights, z_max, z_min = _profile(self)
-        z_min = z_min if self.z_min is None else self.z_min
+        peaks, lowest = _profile(self)
+        z_min = lowest if self.z_min is None else self.z_min
         if z_min is None:
             raise must_be("z_min", "given where heights_or_map is no HeightMap")
-        self._set(heights=heights, z_max=z_max, z_min=z_min)
-        peaks = _core.LocalPeaks(heights, z_max)
         macro = reading, self.rms_height, self.q0
-        self._set(_core=_core.PeaksThenGreenwoodWilliamson(peaks, z_max, z_min, *macro))
+        core = _core.PeaksThenGreenwoodWilliamson(peaks, self.z_max, z_min, *macro)
+        self._set(z_min=z_min, _core=core)
 
 
 Correction = (
@@ -355,31 +354,27 @@ Correction = (
 CORRECTIONS: tuple[type, ...] = Correction.__args__
 
 
-def _profile(correction: Any) -> tuple[Array, float, float | None]:
-    """Return peak heights, z_max and, of a map, z_min; from the arguments of a correction."""
-    source = correction.heights_or_map
-    z_max = correction.z_max
+def _profile(correction: Any) -> tuple[Any, float | None]:
+    """Set heights and z_max of a correction; return the core's peaks and, of a map, z_min."""
+    source, distance = correction.heights_or_map, correction.min_distance
     if isinstance(source, HeightMap):
-        if correction.min_distance is None:
+        if distance is None:
             raise must_be("min_distance", "given with a HeightMap, for instance 2 pi / q0 [m]")
-        heights = source.local_peaks(min_distance=correction.min_distance)
-        heights.setflags(write=False)
+        heights = frozen(source.local_peaks(min_distance=distance))
         if len(heights) < 3:
-            raise InvalidInput(
-                Argument("min_distance"),
-                " = ",
-                valued(correction.min_distance, f"{correction.min_distance!r}"),
-                f": leaves {len(heights)} peaks on this map",
-                Must(", must leave "),
-                "3 or more",
-            )
-        return heights, source.z_max if z_max is None else z_max, source.z_min
-    heights = vector(source, "heights_or_map")
-    if correction.min_distance is not None:
-        raise InvalidInput(
-            Argument("min_distance"), ": only goes with a HeightMap, these are the peaks' heights"
-        )
-    if len(heights) < 3:
-        raise must_be("heights_or_map", "3 or more", f" has {len(heights)} entries")
-    correction._set(heights_or_map=heights)
-    return heights, float(heights.max()) if z_max is None else z_max, None
+            about = Argument("min_distance"), " = ", valued(distance, f"{distance!r}")
+            left = f": leaves {len(heights)} peaks on this map"
+            raise InvalidInput(*about, left, Must(", must leave "), "3 or more")
+        highest, lowest = source.z_max, source.z_min
+    else:
+        heights = vector(source, "heights_or_map")
+        if distance is not None:
+            problem = ": only goes with a HeightMap, these are the peaks' heights"
+            raise InvalidInput(Argument("min_distance"), problem)
+        correction._set(heights_or_map=heights)
+        highest, lowest = float(heights.max(initial=-np.inf)), None  # the core refuses none
+    z_max = highest if correction.z_max is None else correction.z_max
+    with rename_in_errors(None, {"heights": "heights_or_map"}):
+        peaks = _core.LocalPeaks(heights, z_max)
+    correction._set(heights=heights, z_max=z_max)
+    return peaks, lowest

@@ -241,9 +241,8 @@ TOGETHER = [
     ("z_min", lambda: asperity.separation(**GAPS, z_max=1e-4)),
     ("z_max", lambda: asperity.separation(**GAPS, z_max=-1e-4, z_min=1e-4)),
     ("z_max", lambda: asperity.separation(**GAPS, z_max=NAN, z_min=0)),
-    ("heights", lambda: asperity.LocalPeaks([-1, -2, -3])),
-    ("heights", lambda: asperity.LocalPeaks([1, 1, 1])),
-    ("heights_or_map", lambda: asperity.LocalPeaks([1e-4])),
+    ("heights_or_map", lambda: asperity.LocalPeaks([-1, -2, -3])),
+    ("heights_or_map", lambda: asperity.LocalPeaks([1, 1, 1])),
     ("heights_or_map", lambda: asperity.LocalPeaks([2e-4, 1e-4])),
     ("min_distance", lambda: asperity.LocalPeaks(MAP)),
     ("min_distance", lambda: asperity.LocalPeaks(PEAKS, min_distance=1e-6)),
@@ -262,6 +261,12 @@ def test_what_does_not_go_together_is_refused_by_one_argument(argument, call):
     with pytest.raises(InvalidInput) as caught:
         call()
     assert caught.value.argument == argument
+
+
+def test_too_few_peaks_are_said_so_by_their_code():
+    with pytest.raises(InvalidInput) as caught:
+        asperity.LocalPeaks([1e-4])
+    assert (caught.value.code, caught.value.argument) == ("too-few-entries", "heights_or_map")
 
 
 OUTSIDE = [
