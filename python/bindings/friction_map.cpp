@@ -30,8 +30,13 @@ using Heat = std::tuple<TemperatureShift, Heating, std::array<double, 2>>;
 py::bytes build(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                 const std::optional<Adhesion>& adhesion, std::array<double, 2> pressure, std::array<double, 2> velocity,
                 double rtol, std::size_t checked, const std::string& text, unsigned threads, const py::object& told,
-                const std::optional<Heat>& heat) {
+                const std::optional<Heat>& heat, const py::object& words) {
   MapRequest request{pressure, velocity, rtol, checked, text, threads};
+  if (!words.is_none())
+    request.words = [&words](const std::vector<Diagnostic>& notes) {
+      const py::gil_scoped_acquire held;
+      return notes_of(words(tuple_of(notes)));
+    };
   if (!told.is_none())
     request.progress = [&told](double share) {
       const py::gil_scoped_acquire held;

@@ -24,6 +24,7 @@ struct MapRequest {
   std::string_view text = {};                 // lines for whoever reads the file, UTF-8
   unsigned threads = 0;                       // at most, 0: as many as the machine has; the bytes are the same
   std::function<void(double)> progress = {};  // told the share of the work that is done, now and then
+  std::function<std::vector<Diagnostic>(const std::vector<Diagnostic>&)> words = {};  // says notes as the file has them
 };
 
 /// The bytes of a map's file, for FrictionMap::read; `model.rtol` is not used. The map stores ln mu_H and ln A/A0 in

@@ -162,7 +162,7 @@ MapPoints points_of(const MapRequest& request, const std::vector<double>& temper
 std::string text_of(const std::vector<Diagnostic>& notes, const MapRequest& request) {
   std::string text = "asperity " + std::string(version()) + "\n";
   constexpr std::array<const char*, 3> severities{"note", "warning", "fatal"};
-  for (const Diagnostic& note : notes) {
+  for (const Diagnostic& note : request.words ? request.words(notes) : notes) {
     text.append("note: ").append(severities[static_cast<std::size_t>(note.severity)]).append(" ").append(note.code);
     if (!note.argument.empty()) text.append(" ").append(note.argument);
     text.append(": ");

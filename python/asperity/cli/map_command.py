@@ -89,6 +89,7 @@ def friction_map_of(args: Namespace) -> None:
             pressure=pressure,
             velocity=velocity,
             adhesion=scene.adhesion,
+            words=scene.said,
             text=_plain("".join(f"{line}\n" for line in lines)),
             **heat,
             **({} if args.checked is None else {"checked": args.checked}),

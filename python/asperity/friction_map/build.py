@@ -1,6 +1,6 @@
 """Friction maps for simulators, built to a tolerance and certified."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
@@ -8,8 +8,8 @@ import numpy as np
 from asperity import _core
 from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, adhesion_core
-from asperity.base.arguments import MOST_THREADS, number, of_kind, real_array, whole
-from asperity.base.diagnostics import Argument, refusal, unfit
+from asperity.base.arguments import MOST_THREADS, notes_of, number, of_kind, real_array, whole
+from asperity.base.diagnostics import Argument, Note, refusal, unfit
 from asperity.contact import Form, Method, contact_model
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
@@ -45,6 +45,7 @@ def friction_map(
     heating: Heating | None = None,
     direction: float = 0.0,
     progress: Callable[[float], object] | None = None,
+    words: Callable[[tuple[Note, ...]], Iterable[Note]] | None = None,
 ) -> FrictionMap:
     """Build a map of the friction coefficient for simulators to `rtol`, and certify it.
 
@@ -92,6 +93,8 @@ def friction_map(
         the map, as with a ScanContact, which has contacts of its own in each.
     progress : callable, optional
         Called with the share of the work that is done, from 0 to 1, now and then.
+    words : callable, optional
+        Called with the notes, which the file has as it returns them: in the keys of a scene, say.
 
     Returns
     -------
@@ -122,8 +125,9 @@ def friction_map(
     """
     if not isinstance(text, str):
         raise refusal("text", text, "a str")
-    if progress is not None and not callable(progress):
-        raise refusal("progress", progress, "a function, or None")
+    for name, called in (("progress", progress), ("words", words)):
+        if called is not None and not callable(called):
+            raise refusal(name, called, "a function, or None")
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
     parts = surface._core, solid._core
     angle = number(direction, "direction")
@@ -149,7 +153,8 @@ def friction_map(
             [decades], _ = _core.shift_at(law, np.array(sides[:1]))
             parts = surface._core, solid.shifted(10**decades)._core
     lines = text or "".join(f"{name} = {part!r}\n" for name, part in made_of.items())
-    of_rubber = (f"{NOTE_LINE}{note.line}\n" for note in solid.notes)
+    noted = solid.notes if words is None else notes_of(words(solid.notes), "words")
+    of_rubber = (f"{NOTE_LINE}{note.line}\n" for note in noted)
     lines = "".join(line for line in of_rubber if line not in text) + lines
     content = _core.build_friction_map(
         *parts,
@@ -163,6 +168,7 @@ def friction_map(
         0 if threads is None else whole(threads, "threads", lowest=1, highest=MOST_THREADS),
         progress,
         heat,
+        words,
     )
     return FrictionMap(content=content)
 

@@ -19,7 +19,7 @@ from asperity.io.fields import (
     refuse,
     sweep,
 )
-from asperity.scene.parts import ADHESION, CORRECTIONS, HEATING
+from asperity.scene.parts import ADHESION, CORRECTIONS, HEATING, HEATING_NAMES
 from asperity.scene.rubber import RUBBER, BuiltRubber
 from asperity.scene.surface import SURFACE
 from asperity.uncertainty.band import friction_band
@@ -101,7 +101,8 @@ CONDITIONS = {
 SOLVER = fields_of(friction, "rtol", "form", "method")
 NAMES = {**names_of("conditions", CONDITIONS), **names_of("solver", SOLVER)}
 UNCERTAINTY = fields_of(friction_band, "method", "samples", "seed", "level")
-NOTED = {"heating": "[heating]", "strain_factors": "[rubber] strain"}  # arguments that notes name
+# arguments that notes name
+NOTED = {**HEATING_NAMES, "heating": "[heating]", "strain_factors": "[rubber] strain"}
 KEYS: dict[str, dict[str, Field]] = {  # of every table that a scene may have
     "surface": SURFACE,
     "rubber": RUBBER,

@@ -136,8 +136,12 @@ class Scene:
 
     def notes_with(self, remarks: Iterable[Note]) -> list[Note]:
         """Its notes and those of a result, in its words."""
+        return fatal_first([*self.notes, *self.said(remarks)])
+
+    def said(self, remarks: Iterable[Note]) -> list[Note]:
+        """Notes of a result in the words of the scene."""
         named = partial(in_keys, names=NOTED)
-        return fatal_first([*self.notes, *self._in_its_unit(n.said(named) for n in remarks)])
+        return self._in_its_unit(note.said(named) for note in remarks)
 
     def _in_its_unit(self, notes: Iterable[Note]) -> list[Note]:
         """Notes with temperatures as the scene, or its isotherms, have them."""

@@ -138,6 +138,18 @@ def with_heat(temperature, heat=HEATING):
     return SURFACE + RUBBER + LAW + conditions + ADHESION + heat
 
 
+def test_notes_of_a_map_name_the_keys_of_its_scene(scene, capsys):
+    heat = HEATING.replace("contact_diameter_m = 1e-3", "contact_diameter_m = 0.1")
+    assert heat != HEATING
+    scene.write_text(with_heat("300", heat), encoding="utf-8")
+    box = ["--pressure", "1e5,1.1e5", "--velocity", "1e-3,1.1e-3", "--rtol", "1e-2"]
+    assert status_of(["map", scene, "--output", "a.fmap", *box, *QUICK]) == 0
+    (note,) = (n for n in asperity.FrictionMap.load("a.fmap").notes if n.code[:5] == "macro")
+    assert "[heating] contact_diameter_m" in note
+    assert note.next_step.startswith("give macro_wavenumber_per_m")
+    assert f"note: {note}" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("temperature", ["300", "[298, 302]"])
 def test_a_map_of_a_scene_with_heat(scene, capsys, temperature):
     scene.write_text(with_heat(temperature), encoding="utf-8")
