@@ -1,6 +1,6 @@
 """Single-scale asperity contact: Hertz and Greenwood-Williamson (Eqs 14, 16-20)."""
 
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -121,7 +121,7 @@ def separation(
         number(rms_height, "rms_height"),
         number(q0, "q0"),
         heights,
-        choice(reading, "reading", get_args(Reading)),
+        choice(reading, "reading", Reading),
         number_or_none(z_max, "z_max"),
         number_or_none(z_min, "z_min"),
     )

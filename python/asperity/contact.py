@@ -43,11 +43,9 @@ __all__ = [
     "pressure_distribution",
 ]
 
+# in the order of the core's enumerations
 Form = Literal["exact", "interpolated"]
 Method = Literal["gauss", "qag", "qags", "cquad"]
-# in the order of the core's enumerations
-FORMS = ("exact", "interpolated")
-METHODS = ("gauss", "qag", "qags", "cquad")
 
 
 def contact_model(
@@ -66,9 +64,9 @@ def contact_model(
     return (
         number(poisson_ratio, "poisson_ratio"),
         None if correction is None else correction._core,
-        choice(form, "form", FORMS),
+        choice(form, "form", Form),
         number(rtol, "rtol"),
-        choice(method, "method", METHODS),
+        choice(method, "method", Method),
         strain_core(strain_factors),
         number(direction, "direction"),
     )

@@ -38,8 +38,7 @@ from asperity.sweeps import StrainFactors
 
 __all__ = ["Friction", "Gradients", "friction"]
 
-Branch = Literal["cold", "hot"]
-BRANCHES = ("cold", "hot")  # in the order of the core's enumeration
+Branch = Literal["cold", "hot"]  # in the order of the core's enumeration
 ROUGHLY = 1e-3  # rtol of the heat of which a note says the size
 
 
@@ -165,7 +164,7 @@ def friction(
     with_contributions = flag(contributions, "contributions")
     slopes = flag(gradients, "gradients")
     count = whole(threads, "threads", lowest=1, highest=MOST_THREADS)
-    which = choice(branch, "branch", BRANCHES)
+    which = choice(branch, "branch", Branch)
     t: Any = at[0] if at else None
     heat = None if heating is None else of_kind(heating, "heating", Heating)._core
     if heat is None and which:

@@ -21,7 +21,7 @@ from asperity.tiles.spectrum import tiled_spectrum
 Window = Literal["split-cosine-bell", "hann", "none", "blackman"]
 Part = Literal["all", "top", "bottom"]
 # each in the order of the core's enumeration
-WINDOWS, PARTS = map(get_args, (Window, Part))
+WINDOWS = get_args(Window)
 
 
 NO_DIRECTIONS = " = True: a line scan knows no directions"
@@ -30,7 +30,7 @@ NO_DIRECTIONS = " = True: a line scan knows no directions"
 def prepared(window: Window, detrend: Detrend | None) -> tuple[int, int | None]:
     """Return the numbers of a window and of a trend in the core."""
     trend = choice(detrend, "detrend", (*DETRENDS, None))
-    return choice(window, "window", WINDOWS), None if detrend is None else trend
+    return choice(window, "window", Window), None if detrend is None else trend
 
 
 def core_map(surface: Any) -> Any:
@@ -129,7 +129,7 @@ def power_spectrum(
     """
     how, preparation = prepared(window, detrend), _said(window, detrend)
     several = whole(threads, "threads", lowest=1, highest=1024)
-    side = choice(part, "part", PARTS)
+    side = choice(part, "part", Part)
     if pixel_size is None and not isinstance(surface, HeightMap | LineScan):
         surface = surface_from(surface) or surface
     if flag(directional, "directional"):
@@ -230,7 +230,7 @@ def line_spectrum(
     InvalidInput
         The surface has drop-outs or fewer than 4 points along x.
     """
-    how = (*prepared(window, detrend), choice(part, "part", PARTS))
+    how = (*prepared(window, detrend), choice(part, "part", Part))
     scan = of_kind(surface, "surface", LineScan, HeightMap)
     return around(LineSpectrum, _core.line_spectrum(scan._core, *how))
 

@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -32,17 +32,12 @@ from asperity.base.value import CoreValue, around, like, value
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
 from asperity.sweeps import StrainSweep, draw_moduli
 
-Extrapolation = Literal["power-law", "clamp"]
-EXTRAPOLATIONS = (
-    "power-law",
-    "clamp",
-    None,
-)  # in the order of the core's enumeration; None is none
+Extrapolation = Literal["power-law", "clamp"]  # in the order of the core's enumeration
 
 
 def extrapolation_number(name: Any) -> int | None:
     """Return the number that an extrapolation has in the core."""
-    at = choice(name, "extrapolation", EXTRAPOLATIONS)
+    at = choice(name, "extrapolation", (*get_args(Extrapolation), None))
     return None if name is None else at
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, get_args
+from typing import Any, Literal
 
 import numpy as np
 
@@ -22,9 +22,9 @@ from asperity.base.value import around, value
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.surface import HeightMap, pixel_sizes
 
+# in the order of the core's enumerations
 FitMethod = Literal["least-squares", "slope"]
 Rolloff = Literal["find", "require", "none"]
-METHODS, ROLLOFFS = map(get_args, (FitMethod, Rolloff))  # in the order of the core's enumerations
 
 
 @value
@@ -160,7 +160,7 @@ def fit_self_affine(
     """
     core = of_kind(spectrum, "spectrum", TabulatedSpectrum)._core
     band = number_or_none(q_min, "q_min"), number_or_none(q_max, "q_max")
-    how = choice(method, "method", METHODS), choice(rolloff, "rolloff", ROLLOFFS)
+    how = choice(method, "method", FitMethod), choice(rolloff, "rolloff", Rolloff)
     law, covariance, residual, rows = _core.fit_self_affine(core, *band, *how)
     return SelfAffineFit._made(
         spectrum=around(SelfAffineSpectrum, law),

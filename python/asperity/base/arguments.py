@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 from decimal import Decimal
 from numbers import Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -113,11 +113,13 @@ def flag(value: Any, name: str) -> bool:
     raise refusal(name, value, "True or False")
 
 
-def choice(value: Any, name: str, allowed: Sequence[str | None]) -> int:
-    """Return the place of an option among those allowed, which is its number in the core."""
-    if (isinstance(value, str) or value is None) and value in allowed:
-        return allowed.index(value)
-    names = ", ".join("None" if option is None else f'"{option}"' for option in allowed)
+def choice(value: Any, name: str, allowed: Any) -> int:
+    """Return the place of an option among those of a Literal or a sequence, which is its number in
+    the core."""
+    options: Sequence[str | None] = get_args(allowed) or allowed
+    if (isinstance(value, str) or value is None) and value in options:
+        return options.index(value)
+    names = ", ".join("None" if option is None else f'"{option}"' for option in options)
     shown = quoted(value) if isinstance(value, str) else brief(value)
     raise refusal(name, value, f"one of {names}", text=shown)
 

@@ -7,12 +7,12 @@ from asperity.base.arguments import number as real
 from asperity.base.diagnostics import refusal
 from asperity.rubber import PronySeries
 
-PROGRAMS = ("abaqus", "ansys")
+Program = Literal["abaqus", "ansys"]
 
 
 def prony_input(
     series: PronySeries,
-    program: Literal["abaqus", "ansys"],
+    program: Program,
     *,
     poisson_ratio: float = 0.5,
 ) -> str:
@@ -55,7 +55,7 @@ def prony_input(
     """
     if not isinstance(series, PronySeries):
         raise refusal("series", series, "a PronySeries")
-    ansys = choice(program, "program", PROGRAMS) == 1
+    ansys = choice(program, "program", Program) == 1
     ratio = real(poisson_ratio, "poisson_ratio")
     if not 0 <= ratio <= 0.5 or (ansys and ratio == 0.5):
         allowed = "0 or more and below 0.5, for Ansys" if ansys else "in [0, 0.5]"

@@ -51,7 +51,7 @@ from asperity.uncertainty.scan import HeldScan, beyond_scan
 Solid = Rubber | ShiftedRubber
 DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]
 
-METHODS = ("draws", "linear")
+Method = Literal["draws", "linear"]
 _SWEPT = 13  # velocities at which the band of a sweep is computed
 _FAILURES = (InvalidInput, NotConverged, OutOfRange)
 _FAILED = 0.1  # share of draws that may fail: without more of them a band would be another
@@ -135,7 +135,7 @@ def friction_band(
     shift: TemperatureShift | None = None,
     heating: Heating | None = None,
     branch: Branch = "cold",
-    method: Literal["draws", "linear"] = "draws",
+    method: Method = "draws",
     direction: ArrayLike = 0.0,
 ) -> FrictionBand:
     """Return a band on mu, from the standard errors of its measured inputs.
@@ -224,7 +224,7 @@ def friction_band(
     result = friction(plain, of_build, adhesion=adhesion, shift=shift, **given_at, **options)
     shape, columns = broadcast(**given_at)
     at = dict(zip(given_at, map(np.atleast_1d, columns), strict=True))
-    if choice(method, "method", METHODS):
+    if choice(method, "method", Method):
         source = rubber if isinstance(rubber, MasterCurveBuild) else of_build
         linear = linear_band(surface, source, adhesion, at, {**options, "shift": shift}, level)
         return _band(result, Bounds(*linear), shape, level, samples=0)

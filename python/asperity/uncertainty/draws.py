@@ -136,13 +136,14 @@ def draw_fit(fit: SelfAffineFit, rng: Generator, q1: float | None = None) -> Sel
         hurst = fit.hurst + drawn[1]
         rolloff = None if fit.rolloff is None else fit.rolloff * float(np.exp(drawn[2]))
         if 0 < hurst <= 1 and (rolloff is None or fit.q0 < rolloff < end):
-            return SelfAffineSpectrum(
-                rms_height=fit.rms_height * float(np.exp(drawn[0])),
-                hurst=hurst,
-                q0=fit.q0,
-                q1=fit.q1,
-                rolloff=rolloff,
-            )
+            return moved_fit(fit, drawn)
+
+
+def moved_fit(fit: SelfAffineFit, by: Any) -> SelfAffineSpectrum:
+    """The law with ln of its rms height, H and ln of its roll-off moved, H to 1 at most."""
+    rolloff = None if fit.rolloff is None else fit.rolloff * float(np.exp(by[2]))
+    height, hurst = fit.rms_height * float(np.exp(by[0])), min(fit.hurst + float(by[1]), 1.0)
+    return SelfAffineSpectrum(rms_height=height, hurst=hurst, q0=fit.q0, q1=fit.q1, rolloff=rolloff)
 
 
 def drawn_rubber(source: Rubber | MasterCurveBuild) -> Drawn[Rubber]:
@@ -191,11 +192,16 @@ def draw_adhesion(source: Adhesion | None, rng: Generator) -> Adhesion | None:
     while True:
         drawn = rng.multivariate_normal(np.zeros(3), covariance, method="eigh")
         if source.width + drawn[2] >= 0:
-            return Adhesion(
-                shear_stress=source.shear_stress * float(np.exp(drawn[0])),
-                reference_velocity=source.reference_velocity * float(np.exp(drawn[1])),
-                width=source.width + drawn[2],
-            )
+            return moved_adhesion(source, drawn)
+
+
+def moved_adhesion(fit: AdhesionFit, by: Any) -> Adhesion:
+    """The adhesion with ln tau_f0, ln v0 and c moved, c to 0 at least."""
+    return Adhesion(
+        shear_stress=fit.shear_stress * float(np.exp(by[0])),
+        reference_velocity=fit.reference_velocity * float(np.exp(by[1])),
+        width=max(fit.width + float(by[2]), 0.0),
+    )
 
 
 def draw_strain(factors: StrainFactors | None, rng: Generator) -> StrainFactors | None:

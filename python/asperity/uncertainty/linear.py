@@ -3,6 +3,7 @@ good enough."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from statistics import NormalDist
 from typing import Any
 
@@ -24,7 +25,10 @@ from asperity.uncertainty.draws import (
     Drawn,
     adhesion_covariance,
     fit_covariance,
+    moved_adhesion,
+    moved_fit,
     row_covariance,
+    rows_like,
 )
 
 Array = NDArray[np.float64]
@@ -138,27 +142,18 @@ def _surface(source: AnySpectrum | None, plain: Spectrum) -> _Input | None:
     if not isinstance(plain, TabulatedSpectrum) or plain.standard_error is None:
         return None
     table, weight = plain, _weights(plain.wavenumber)
-
-    def moved(by: Array) -> TabulatedSpectrum:
-        density = table.density * np.exp(by)
-        return TabulatedSpectrum(wavenumber=table.wavenumber, density=density, q1=table.q1)
-
-    covariance = row_covariance(table)
-    return _Input(_root(covariance), lambda result: _of(result).spectrum * weight, moved)
+    return _Input(
+        _root(row_covariance(table)),
+        lambda result: _of(result).spectrum * weight,
+        lambda by: rows_like(table, table.density * np.exp(by)),
+    )
 
 
 def _law(fit: SelfAffineFit, plain: Spectrum) -> _Input:
     """The fitted law, and the rms height of its band: mu may be of another band."""
 
     def moved(by: Array) -> SelfAffineSpectrum:
-        law = SelfAffineSpectrum(
-            rms_height=fit.rms_height * float(np.exp(by[0])),
-            hurst=min(fit.hurst + float(by[1]), 1.0),
-            q0=fit.q0,
-            q1=fit.q1,
-            rolloff=None if fit.rolloff is None else fit.rolloff * float(np.exp(by[2])),
-        )
-        return law.extended(q0=plain.q0, q1=plain.q1)
+        return moved_fit(fit, by).extended(q0=plain.q0, q1=plain.q1)
 
     def height(by: Array) -> float:
         return float(np.log(moved(by).rms_height / plain.rms_height))
@@ -225,14 +220,7 @@ def _adhesion(fit: AdhesionFit) -> _Input:
         width = of.width / fit.width if fit.width else np.zeros_like(of.width)
         return np.stack([of.shear_stress, of.reference_velocity, width], axis=-1)
 
-    def moved(by: Array) -> Adhesion:
-        return Adhesion(
-            shear_stress=fit.shear_stress * float(np.exp(by[0])),
-            reference_velocity=fit.reference_velocity * float(np.exp(by[1])),
-            width=max(fit.width + float(by[2]), 0.0),
-        )
-
-    return _Input(_root(adhesion_covariance(fit)), slopes, moved)
+    return _Input(_root(adhesion_covariance(fit)), slopes, partial(moved_adhesion, fit))
 
 
 def _of(result: Friction) -> Gradients:
