@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, frozen, number, of_kind, path_of
+from asperity.base.arguments import Array, frozen, number, of_kind, path_of, reading
 from asperity.base.diagnostics import must_be, refusal, unfit
 from asperity.base.parameters import parameter
 from asperity.base.table import Column, Columns, Table
@@ -222,26 +222,32 @@ class ScanContact(Value):
     def load(cls, path: str | PathLike[str]) -> Self:
         """Return what `save` wrote to `path`. InvalidInput for any other file."""
         file = path_of(path, "path")
-        try:
-            check_file(file)
-            saved = read_arrays(file)
-            periodic = str(saved["periodic"])
-            arguments: dict[str, Any] = {
-                "height_map": HeightMap(saved["heights"], pixel_size=tuple(saved["pixel_size"])),
-                "periodic": True if periodic == "True" else periodic,
-                "tolerance": float(saved["tolerance"]),
-            }
-            made = cls(**arguments)
-            made._core.add(_rows(saved["contacts"]))
-            return made
-        except OSError as error:
-            raise InvalidInput(f"cannot be read: {error.strerror or error}", where=file) from error
-        except (InvalidInput, ValueError, TypeError, KeyError, BadZipFile, zlib.error) as error:
-            raise InvalidInput(f"is no saved ScanContact: {error}", where=file) from error
+        with reading(file):
+            try:
+                check_file(file)
+                saved = read_arrays(file)
+                closing = str(saved["periodic"])
+                surface = HeightMap(saved["heights"], pixel_size=tuple(saved["pixel_size"]))
+                arguments: dict[str, Any] = {
+                    "height_map": surface,
+                    "tolerance": float(saved["tolerance"]),
+                }
+                arguments["periodic"] = True if closing == "True" else closing
+                return cls(**arguments)._add(saved["contacts"])
+            except (InvalidInput, ValueError, TypeError, KeyError, BadZipFile, zlib.error) as error:
+                raise InvalidInput(f"is no saved ScanContact: {error}") from error
 
     def _summary(self) -> dict[str, Any]:
         shape = {"shape": self.height_map.heights.shape, "periodic": self.periodic}
         return shape | {"tolerance": self.tolerance, "contacts": len(self.contacts)}
+
+    def _add(self, contacts: ArrayLike) -> Self:
+        """Take contacts as solved; return the object itself."""
+        rows = np.asarray(contacts, dtype=np.float64)
+        if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
+            raise must_be("contacts", f"(n, {len(COLUMNS)})", f" has the shape {rows.shape}")
+        self._core.add(rows)
+        return self
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _with_contacts, (self._arguments(), np.array(self.contacts.rows))
@@ -249,13 +255,4 @@ class ScanContact(Value):
 
 def _with_contacts(arguments: Mapping[str, Any], contacts: ArrayLike) -> ScanContact:
     """Make an object anew, with what another one has solved."""
-    made = ScanContact(**arguments)
-    made._core.add(_rows(contacts))
-    return made
-
-
-def _rows(contacts: ArrayLike) -> Array:
-    rows = np.asarray(contacts, dtype=np.float64)
-    if rows.ndim != 2 or rows.shape[1] != len(COLUMNS):
-        raise must_be("contacts", f"(n, {len(COLUMNS)})", f" has the shape {rows.shape}")
-    return rows
+    return ScanContact(**arguments)._add(contacts)

@@ -4,14 +4,17 @@ import argparse
 import math
 import sys
 from argparse import ArgumentTypeError
-from collections.abc import Callable
-from typing import Any, NoReturn
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from typing import Any, NoReturn, TypeVar
 
 from asperity._core import __version__
 from asperity.base.arguments import brief
 from asperity.cli.streams import print_stderr, print_stdout, printable
 from asperity.io.fields import MOST_POINTS
 from asperity.io.typed import Typed, TypedWhole
+
+Value = TypeVar("Value")
 
 
 class Parser(argparse.ArgumentParser):
@@ -36,12 +39,25 @@ class Version(argparse.Action):
         parser.exit()
 
 
+def _must_be(allowed: str) -> Callable[[Callable[[str], Value]], Callable[[str], Value]]:
+    """Let what reads the text of an option refuse it where it raises ValueError."""
+
+    def refusing(read: Callable[[str], Value]) -> Callable[[str], Value]:
+        def value(text: str) -> Value:
+            try:
+                return read(text)
+            except (ArgumentTypeError, ValueError):
+                raise ArgumentTypeError(f"{brief(text)}: must be {allowed}") from None
+
+        return value
+
+    return refusing
+
+
+@_must_be("numbers, parted by commas")
 def numbers(text: str) -> list[float]:
     """Numbers, parted by commas."""
-    try:
-        return [Typed(entry) for entry in text.split(",")]
-    except ValueError:
-        raise ArgumentTypeError(f"{brief(text)}: must be numbers, parted by commas") from None
+    return [Typed(entry) for entry in text.split(",")]
 
 
 def keys(text: str) -> list[str]:
@@ -49,91 +65,79 @@ def keys(text: str) -> list[str]:
     return [entry.strip() for entry in text.split(",")]
 
 
+@_must_be("NAME=VALUE,NAME=VALUE, with each NAME once")
 def pairs(text: str) -> dict[str, str]:
     """Names with their values."""
-    pairs = [entry.partition("=") for entry in text.split(",")]
-    if not all(name and mark and value for name, mark, value in pairs):
-        raise ArgumentTypeError(f"{brief(text)}: must be NAME=VALUE,NAME=VALUE")
-    result = {name.strip(): value.strip() for name, _, value in pairs}
-    if len(result) < len(pairs):
-        raise ArgumentTypeError(f"{brief(text)}: must have each NAME once")
+    parts = [entry.partition("=") for entry in text.split(",")]
+    result = {name.strip(): value.strip() for name, _, value in parts}
+    if not all(map(all, parts)) or len(result) < len(parts):
+        raise ValueError
     return result
 
 
+@_must_be("KEY=VALUE,DEVIATION or KEY=VALUE,DEVIATION,ln")
 def prior(text: str) -> tuple[str, tuple[float | str, ...]]:
     """A key with what is known of it before."""
     key, _, given = text.partition("=")
-    value, *more = given.split(",")
-    try:
-        if len(more) not in (1, 2) or more[1:] not in ([], ["ln"]):
-            raise ValueError
-        return key.strip(), (Typed(value), Typed(more[0]), *more[1:])
-    except ValueError:
-        form = "KEY=VALUE,DEVIATION or KEY=VALUE,DEVIATION,ln"
-        raise ArgumentTypeError(f"{brief(text)}: must be {form}") from None
+    value, deviation, *scale = given.split(",")
+    if scale not in ([], ["ln"]):
+        raise ValueError
+    return key.strip(), (Typed(value), Typed(deviation), *scale)
 
 
+@_must_be("a positive number")
 def number(text: str) -> float:
     """A positive number: all that the options ask for are."""
-    try:
-        number = Typed(text)
-    except ValueError:
-        number = Typed("nan")
+    number = Typed(text)
     if not 0 < number < math.inf:
-        raise ArgumentTypeError(f"{brief(text)}: must be a positive number")
+        raise ValueError
     return number
 
 
-def pixel_size(text: str) -> Any:
-    """One number [m], or DY,DX."""
-    return _one_or_two(text, number, "a positive number [m], or two: DY,DX")
-
-
+@_must_be("two positive numbers, LO,HI")
 def sides(text: str) -> tuple[float, float]:
     """LO,HI."""
-    try:
-        lo, hi = (number(side) for side in text.split(","))
-    except (ArgumentTypeError, ValueError):
-        raise ArgumentTypeError(f"{brief(text)}: must be two positive numbers, LO,HI") from None
+    lo, hi = map(number, text.split(","))
     return lo, hi
 
 
+@_must_be("a whole number")
 def whole(text: str) -> int:
     """A whole number."""
-    try:
-        return TypedWhole(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{brief(text)}: must be a whole number") from None
+    return TypedWhole(text)
 
 
+@_must_be(f"a whole number in 2..{MOST_POINTS}")
 def points(text: str) -> int:
     """How many points a sweep has."""
     if not 2 <= (points := whole(text)) <= MOST_POINTS:
-        raise ArgumentTypeError(f"{text}: must be in 2..{MOST_POINTS}")
+        raise ValueError
     return points
 
 
+@_must_be("a number, 0 or more")
 def share(text: str) -> float:
     """A number from 0 on; more is refused by whoever takes it."""
-    try:
-        return Typed(text) if float(text) == 0 else number(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{brief(text)}: must be a number, 0 or more") from None
+    return Typed(text) if float(text) == 0 else number(text)
 
 
+@_must_be("a positive number [m], or two: DY,DX")
+def pixel_size(text: str) -> Any:
+    """One number [m], or DY,DX."""
+    return _one_or_two(map(number, text.split(",")))
+
+
+@_must_be("a whole number, or two: NY,NX")
 def tile(text: str) -> Any:
     """N, or NY,NX."""
-    return _one_or_two(text, whole, "a whole number, or two: NY,NX")
+    return _one_or_two(map(whole, text.split(",")))
 
 
-def _one_or_two(text: str, read: Callable[[str], Any], allowed: str) -> Any:
-    try:
-        sizes = tuple(read(size) for size in text.split(","))
-    except ArgumentTypeError:
-        sizes = ()
-    if len(sizes) not in (1, 2):
-        raise ArgumentTypeError(f"{brief(text)}: must be {allowed}")
-    return sizes[0] if len(sizes) == 1 else sizes
+def _one_or_two(numbers: Iterable[Any]) -> Any:
+    first, *second = numbers
+    if len(second) > 1:
+        raise ValueError
+    return (first, *second) if second else first
 
 
 def typed_options(args: argparse.Namespace) -> dict[str, Any]:
@@ -146,10 +150,9 @@ def typed_options(args: argparse.Namespace) -> dict[str, Any]:
 
 
 def _number_or_none(text: str) -> float | None:
-    try:
+    with suppress(ValueError):
         return Typed(text)
-    except ValueError:
-        return None
+    return None
 
 
 def flags(*arguments: str) -> dict[str, str]:

@@ -2,6 +2,8 @@
 
 import re
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from importlib import import_module
 from io import BytesIO
@@ -30,6 +32,23 @@ _ROUNDED = 0.7  # of the last printed digit: rounding shifts them by 0.5, and th
 
 class UnrecognisedError(InvalidInput):
     """A file is not of the format that it was taken for."""
+
+
+@contextmanager
+def understood(
+    problem: str, kind: type[InvalidInput] = InvalidInput, package: str = ""
+) -> Iterator[None]:
+    """One error for all the ways in which another library cannot read a file, or is missing."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        try:
+            yield
+        except (InvalidInput, OSError):
+            raise
+        except ModuleNotFoundError as error:
+            raise kind(f"needs {package}: {to_install('io')}") from error
+        except Exception as error:
+            raise kind(f"{problem}: {brief(error)}") from error
 
 
 def checked_unit(unit: str) -> str:
@@ -143,26 +162,16 @@ def _as_iso_5436(path: Path) -> BytesIO | None:
 
 def scans_of_container(path: Path) -> list[Any]:
     """What reads the scans of a ZIP archive of contact.engineering, one after the other."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            with path.open("rb") as file:
-                Archive(file).check()
-            reader = import_module("SurfaceTopography.Container.IO").CEReader(str(path))
-            every = range(reader.nb_containers)
-            return [
-                partial(container.__getitem__, at)
-                for container in map(reader.container, every)
-                for at in range(len(container))
-            ]
-        except (InvalidInput, OSError):
-            raise
-        except ModuleNotFoundError as error:
-            problem = f"needs SurfaceTopography: {to_install('io')}"
-            raise UnrecognisedError(problem) from error
-        except Exception as error:
-            problem = f"no archive of contact.engineering, or damaged: {brief(error)}"
-            raise UnrecognisedError(problem) from error
+    problem = "no archive of contact.engineering, or damaged"
+    with understood(problem, UnrecognisedError, "SurfaceTopography"):
+        with path.open("rb") as file:
+            Archive(file).check()
+        reader = import_module("SurfaceTopography.Container.IO").CEReader(str(path))
+        return [
+            partial(container.__getitem__, at)
+            for container in map(reader.container, range(reader.nb_containers))
+            for at in range(len(container))
+        ]
 
 
 def read_container(path: Path, channel: int, unit: str | None) -> HeightMap | LineScan:
@@ -171,12 +180,9 @@ def read_container(path: Path, channel: int, unit: str | None) -> HeightMap | Li
 
     scans = scans_of_container(path)
     check_channel(channel, len(scans))
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with understood(f"scan {channel}", UnrecognisedError):
         try:
             topography = scans[channel]()
-        except Exception as error:
-            raise UnrecognisedError(f"scan {channel}: {brief(error)}") from error
         finally:
             gc.collect()  # the library leaves files open, in circles of references
     if topography.unit is None and unit is None:

@@ -12,7 +12,7 @@ from asperity.base.diagnostics import must_be
 from asperity.base.table import imported
 from asperity.io import plausible
 from asperity.io.files import check_file
-from asperity.io.instrument import PixelSize, brief, check_channel, checked_unit
+from asperity.io.instrument import PixelSize, brief, check_channel, checked_unit, understood
 from asperity.io.read_surface import required
 from asperity.tiles.source import Source, source_of
 
@@ -46,12 +46,8 @@ def _npy(path: Path, channel: int) -> Any:
         allowed = "a .npy file or a Zarr array; others are read whole"
         raise must_be("", allowed, "cannot be read by tiles")
     check_channel(channel, 1)
-    try:
+    with understood("not a sound .npy file"):
         return np.load(path, mmap_mode="r", allow_pickle=False)
-    except OSError:
-        raise
-    except Exception as error:
-        raise InvalidInput(f"not a sound .npy file: {brief(error)}") from error
 
 
 def _zarr(path: Path, channel: int) -> Any:

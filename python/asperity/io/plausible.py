@@ -135,19 +135,16 @@ def check(
     size = _in_si(numbers, quantity, unit)
     lowest, highest = int(size.argmin()), int(size.argmax())
     for at, side, words, limit in (
-        (lowest, -1, "at least", quantity.least),
-        (highest, 1, "at most", quantity.most),
+        (lowest, -1, (MUST_BE, "at least"), quantity.least),
+        (highest, 1, (MUST_BE, "at most"), quantity.most),
+        (lowest, -1, (": unusual, below",), quantity.low),
+        (highest, 1, (": unusual, above",), quantity.high),
     ):
-        if _beyond(size[at], side, limit):
-            sentence = _sentence(name, float(numbers[at]), quantity, unit, (MUST_BE, words), limit)
-            _refuse(sentence, "absurd-value", path)
-            return
-    for at, side, words, unusual in (
-        (lowest, -1, ": unusual, below", quantity.low),
-        (highest, 1, ": unusual, above", quantity.high),
-    ):
-        if unusual is not None and _beyond(size[at], side, unusual):
-            sentence = _sentence(name, float(numbers[at]), quantity, unit, (words,), unusual)
+        if limit is not None and _beyond(size[at], side, limit):
+            sentence = _sentence(name, float(numbers[at]), quantity, unit, words, limit)
+            if MUST_BE in words:
+                _refuse(sentence, "absurd-value", path)
+                return
             _note(sentence, "unusual-value", path)
 
 

@@ -2,10 +2,8 @@
 
 import os
 import re
-import warnings
 from array import array
 from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +26,7 @@ from asperity.io.instrument import (
     read_container,
     read_instrument,
     surface_of,
+    understood,
 )
 from asperity.io.objects import surface_from
 from asperity.io.positions import FEWEST, has_positions, surface_at
@@ -143,19 +142,6 @@ def required(path: Path, pixel_size: PixelSize | None, unit: str | None) -> tupl
     return METRES[unit], pixel_size
 
 
-@contextmanager
-def _sound(kind: str) -> Iterator[None]:
-    """One error for all the ways in which NumPy finds a file damaged."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        try:
-            yield
-        except (InvalidInput, OSError):
-            raise
-        except Exception as error:
-            raise InvalidInput(f"not a sound {kind} file: {brief(error)}") from error
-
-
 def _real(values: object) -> NDArray[Any]:
     if not isinstance(values, np.ndarray):
         raise must_be("", "an array of real numbers", "holds something else")
@@ -166,12 +152,12 @@ def _real(values: object) -> NDArray[Any]:
 
 def _load_npy(path: Path, channel: int) -> NDArray[Any]:
     check_channel(channel, 1)
-    with _sound(".npy"):
+    with understood("not a sound .npy file"):
         return np.array(_real(np.load(path, mmap_mode="r", allow_pickle=False)))
 
 
 def _load_npz(path: Path, channel: int) -> NDArray[Any]:
-    with _sound(".npz"), path.open("rb") as file:
+    with understood("not a sound .npz file"), path.open("rb") as file:
         archive = Archive(file)
         if not archive.members:
             raise InvalidInput("holds no arrays")

@@ -4,7 +4,6 @@ workbook, whose rows become lines with cells parted by tabs."""
 import codecs
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -12,9 +11,9 @@ from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import quoted, reading
-from asperity.base.table import to_install
 from asperity.io.archive import Archive
 from asperity.io.files import check_file
+from asperity.io.instrument import understood
 
 _ZIP, _OLE = b"PK\x03\x04", b"\xd0\xcf\x11\xe0"  # how .xlsx and .xls files begin
 WORKBOOKS = (".xlsx", ".xlsm", ".xls")
@@ -101,26 +100,13 @@ def _encoding(begin: bytes) -> str:
 
 def _rows(path: Path, zipped: bool, sheets: list[tuple[int, str]]) -> Iterator[str]:
     number = 1
-    with _sound(path, "openpyxl" if zipped else "xlrd"):
+    package = "openpyxl" if zipped else "xlrd"
+    with understood(f"not a sound workbook ({path.suffix or package})", package=package):
         for name, rows in (_of_xlsx if zipped else _of_xls)(path):
             sheets.append((number, name))
             for row in rows:
                 number += 1
                 yield "\t".join(map(_cell, row))
-
-
-@contextmanager
-def _sound(path: Path, package: str) -> Iterator[None]:
-    """One error for all the ways in which a workbook is none, or cannot be read here."""
-    try:
-        yield
-    except (InvalidInput, OSError):
-        raise
-    except ModuleNotFoundError as error:
-        raise InvalidInput(f"needs {package}: {to_install('io')}") from error
-    except Exception as error:
-        kind = f"a sound workbook ({path.suffix or package})"
-        raise InvalidInput(f"not {kind}: {' '.join(str(error).split())[:80]}") from error
 
 
 def _of_xlsx(path: Path) -> Iterator[tuple[str, Any]]:

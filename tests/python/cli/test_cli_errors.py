@@ -71,7 +71,7 @@ def test_bad_input_is_one_line_and_leaves_no_file(
     [
         ([], "VERB"),
         (["frictoin"], "VERB: invalid choice: 'frictoin'"),
-        (["area", "scene.toml", "--points", "1"], "--points: 1"),
+        (["area", "scene.toml", "--points", "1"], "--points: '1'"),
         ([*SPECTRUM, "--pixel-size", "abc"], "--pixel-size: 'abc'"),
         ([*SPECTRUM, "--window", "boxcar"], "--window: invalid choice: 'boxcar'"),
     ],
