@@ -105,7 +105,7 @@ def compared(tables: dict[str, Any], velocity: Any, trials: int, seed: int) -> N
         with np.errstate(all="ignore"):
             mu = asperity.friction(
                 scene.surface.drawn(rng),
-                scene.built_rubber.drawn(rng),
+                scene.built_rubber.drawn(rng).rubber,
                 pressure=p,
                 velocity=v,
                 correction=scene.correction,

@@ -38,7 +38,6 @@ from asperity.scene.rubber import BuiltRubber
 from asperity.scene.surface import Surface
 from asperity.spectrum import Spectrum
 from asperity.uncertainty.band import Bounds, DrawAdhesion, relative_band, swept_band
-from asperity.uncertainty.draws import Drawn, ShiftedRubber
 
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
 _SAMPLING = names_of("uncertainty", UNCERTAINTY)
@@ -301,8 +300,8 @@ class Scene:
         held = ("poisson_ratio", "form", "strain_factors", "direction")
         options = {name: self.options[name] for name in held if name in self.options}
         options["correction"] = self.correction
-        rubber: Drawn[Rubber] | Drawn[ShiftedRubber] = self.built_rubber.drawn
         built = self.built_rubber
+        rubber = built.drawn
         linear = self.sampling["method"] == "linear" and built.drawn_at_reference is not None
         if self.heating is not None or linear:  # slopes know T by the shift
             temperature = built.temperature if self.temperature is None else self.temperature

@@ -49,7 +49,7 @@ from asperity.uncertainty.draws import (
     Generator,
     ShiftedRubber,
     draw_build,
-    drawn_shifted,
+    drawn_rubber,
 )
 
 Measured = Callable[[Path, Values], tuple[list[Isotherm], MasterCurveBuild]]
@@ -110,7 +110,7 @@ class BuiltRubber:
 
     rubber: Rubber
     values: Values  # the table as it was used
-    drawn: Drawn[Rubber]  # as its standard errors would have it, where they are known
+    drawn: Drawn[ShiftedRubber]  # as its standard errors would have it, where they are known
     shift: TemperatureShift | None = None  # a_T(T), and the rubber at its reference
     at_reference: Rubber | None = None
     temperature: float | None = None  # [K], at which the rubber is wanted
@@ -189,12 +189,12 @@ def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltR
             if key in values:
                 problem = "needs shift, a file of shift factors, or wlf_c1 and wlf_c2_k"
                 refuse(path, f"[rubber] {key}", problem)
-        return BuiltRubber(rubber, values, Drawn[Rubber](rubber))
+        return BuiltRubber(rubber, values, Drawn(ShiftedRubber(rubber)))
     known = "shift holds a_T of several" if "shift" in values else "the law gives a_T at any"
     require(path, "rubber", values, ("temperature_k",), f"{_ADD}: {known}")
     shifted = rubber.shifted(shift_factor(path, shifts, values))
-    made = BuiltRubber(shifted, values, Drawn[Rubber](shifted), shifts, rubber)
-    return replace(made, drawn_at_reference=drawn_shifted(rubber, shifts))
+    made = BuiltRubber(shifted, values, Drawn(ShiftedRubber(shifted)), shifts, rubber)
+    return replace(made, drawn_at_reference=drawn_rubber(rubber, shifts))
 
 
 def _in_kelvin(path: Path, values: Values) -> Values:
@@ -263,10 +263,10 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
     isotherms, build = measure(path, at_any)
     rubber = _at_temperature(path, values, build, extrapolation)
 
-    def draw(rng: Generator) -> Rubber:  # its shifts move the ends of what was measured
-        return _at_temperature(path, values, draw_build(build, rng), "prony")
+    def draw(rng: Generator) -> ShiftedRubber:  # its shifts move the ends of what was measured
+        return ShiftedRubber(_at_temperature(path, values, draw_build(build, rng), "prony"))
 
-    drawn_at = Drawn[Rubber](rubber, draw)
+    drawn_at = Drawn(ShiftedRubber(rubber), draw)
     made = BuiltRubber(rubber, values, drawn_at, isotherms=isotherms, build=build)
     if values.get("vertical_shift") is not None:  # the model of heat has no b_T
         return made

@@ -42,13 +42,11 @@ from asperity.uncertainty.draws import (
     draw_adhesion,
     draw_strain,
     drawn_rubber,
-    drawn_shifted,
     drawn_spectrum,
 )
 from asperity.uncertainty.linear import linear_band
 from asperity.uncertainty.scan import HeldScan, beyond_scan
 
-Solid = Rubber | ShiftedRubber
 DrawAdhesion = Callable[[Spectrum, Rubber, Generator], Adhesion]
 
 Method = Literal["draws", "linear"]
@@ -200,7 +198,11 @@ def friction_band(
             Argument("rubber"),
             ": a PronyFit does not know its errors, give the MasterCurveBuild behind it",
         )
-    surface, solid = drawn_spectrum(spectrum), drawn_rubber(rubber)
+    known = None
+    if temperature is not None:
+        known = shift if isinstance(rubber, MasterCurveBuild) else known_shift(rubber, shift)
+    surface = drawn_spectrum(spectrum)
+    solid = drawn_rubber(rubber, known, shifted=temperature is not None)
     with_errors = isinstance(adhesion, AdhesionFit) or isinstance(correction, ScanContact)
     with_errors |= strain_factors is not None and strain_factors.storage_error is not None
     if surface.draw is None and solid.draw is None and not with_errors:
@@ -228,20 +230,8 @@ def friction_band(
         source = rubber if isinstance(rubber, MasterCurveBuild) else of_build
         linear = linear_band(surface, source, adhesion, at, {**options, "shift": shift}, level)
         return _band(result, Bounds(*linear), shape, level, samples=0)
-    drawn: Drawn[Rubber] | Drawn[ShiftedRubber] = solid
-    if temperature is not None:
-        known = shift if isinstance(rubber, MasterCurveBuild) else known_shift(rubber, shift)
-        drawn = drawn_shifted(rubber, known)
-    band = relative_band(
-        surface,
-        drawn,
-        adhesion,
-        options | at,
-        samples=samples,
-        seed=seed,
-        level=level,
-        threads=threads,
-    )
+    how: dict[str, Any] = {"samples": samples, "seed": seed, "level": level, "threads": threads}
+    band = relative_band(surface, solid, adhesion, options | at, **how)
     return _band(result, band, shape, level, samples)
 
 
@@ -261,7 +251,7 @@ def _band(result: Friction, band: Bounds, shape: Shape, level: float, samples: i
 
 def relative_band(
     spectrum: Drawn[Spectrum],
-    rubber: Drawn[Rubber] | Drawn[ShiftedRubber],
+    rubber: Drawn[ShiftedRubber],
     adhesion: Adhesion | None,
     options: dict[str, Any],
     *,
@@ -291,14 +281,12 @@ def relative_band(
 
     def at_points(
         surface: Spectrum,
-        solid: Solid,
+        solid: ShiftedRubber,
         added: Adhesion | None,
         softer: StrainFactors | None = softening,
     ) -> Friction:
-        plain, shift = solid if isinstance(solid, ShiftedRubber) else (solid, None)
-        return friction(
-            surface, plain, shift=shift, adhesion=added, strain_factors=softer, **options
-        )
+        how: dict[str, Any] = {"shift": solid.shift, "adhesion": added, "strain_factors": softer}
+        return friction(surface, solid.rubber, **how, **options)
 
     scan, held, fitted_on = options.get("correction"), None, spectrum.plain
     if isinstance(scan, ScanContact):
@@ -310,25 +298,19 @@ def relative_band(
     else:
         centre = at_points(spectrum.plain, rubber.plain, adhesion).mu
 
-    def draw() -> tuple[Spectrum, Solid, Adhesion | None, StrainFactors | None, float]:
+    def draw() -> tuple[Any, ...]:
         surface, solid = spectrum(rng), rubber(rng)
         if refit is None:
             added = draw_adhesion(adhesion, rng)
         else:  # on a scan as it is: no contact is solved for a draw
             of_fit = rubber.plain if held else solid
-            plain = of_fit.rubber if isinstance(of_fit, ShiftedRubber) else of_fit
-            added = refit(fitted_on if held else surface, plain, rng)
+            added = refit(fitted_on if held else surface, of_fit.rubber, rng)
         softer = draw_strain(softening, rng)
         return surface, solid, added, softer, held.draw() if held else 0.0
 
-    def curve(
-        surface: Spectrum,
-        solid: Solid,
-        added: Adhesion | None,
-        softer: StrainFactors | None,
-        scatter: float,
-    ) -> Any:
-        result = at_points(surface, solid, added, softer)
+    def curve(*inputs: Any) -> Any:
+        *parts, scatter = inputs
+        result = at_points(*parts)
         return held.mu(result, scatter) if held else result.mu
 
     curves: list[Any] = []
@@ -352,7 +334,7 @@ def relative_band(
 
 def _linear(
     spectrum: Drawn[Spectrum],
-    rubber: Drawn[Rubber] | Drawn[ShiftedRubber],
+    rubber: Drawn[ShiftedRubber],
     adhesion: Adhesion | None,
     options: dict[str, Any],
     level: float,
@@ -364,15 +346,12 @@ def _linear(
         raise InvalidInput(*named, '"draws" where each draw is fitted anew')
     if rubber.draw is not None and rubber.source is None:
         raise InvalidInput(*named, '"draws" with a Prony fit of isotherms, or a vertical shift')
-    plain, shift = rubber.plain, None
-    if isinstance(plain, ShiftedRubber):
-        plain, shift = plain
-    solid = plain if rubber.source is None else rubber.source
+    solid = rubber.plain.rubber if rubber.source is None else rubber.source
     names = ("pressure", "velocity", "temperature")
     size = np.size(options["pressure"])
     at = {name: np.broadcast_to(options[name], size) for name in names if name in options}
     if rubber.source is None:
-        options = {**options, "shift": shift}
+        options = {**options, "shift": rubber.plain.shift}
     return Bounds(*linear_band(spectrum, solid, adhesion, at, options, level))
 
 
@@ -383,7 +362,7 @@ def _left_out(failed: int, samples: int, problem: Exception) -> Note:
 
 def swept_band(
     spectrum: Drawn[Spectrum],
-    rubber: Drawn[Rubber] | Drawn[ShiftedRubber],
+    rubber: Drawn[ShiftedRubber],
     adhesion: Adhesion | None,
     pressure: NDArray[np.float64],
     velocity: NDArray[np.float64],

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.base.arguments import known
 from asperity.dma import MasterCurveBuild, draw_master_curve
-from asperity.rubber import MasterCurve, Rubber
+from asperity.rubber import Rubber
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.shift_factors import TemperatureShift
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
@@ -24,13 +24,13 @@ else:
 
 
 class ShiftedRubber(NamedTuple):
-    """A rubber at the reference of its shift."""
+    """A rubber, at the reference of its shift where it has one."""
 
     rubber: Rubber
-    shift: TemperatureShift
+    shift: TemperatureShift | None = None
 
 
-Input = TypeVar("Input", Spectrum, Rubber, ShiftedRubber)
+Input = TypeVar("Input", Spectrum, ShiftedRubber)
 
 _ROWS_PER_DECADE = 10.0  # of a measured spectrum whose errors are carried through
 
@@ -146,27 +146,19 @@ def moved_fit(fit: SelfAffineFit, by: Any) -> SelfAffineSpectrum:
     return SelfAffineSpectrum(rms_height=height, hurst=hurst, q0=fit.q0, q1=fit.q1, rolloff=rolloff)
 
 
-def drawn_rubber(source: Rubber | MasterCurveBuild) -> Drawn[Rubber]:
-    """Of a build, the master curve as the errors of its shifts and of its spline would have it."""
-    if not isinstance(source, MasterCurveBuild):
-        return Drawn[Rubber](source)
-
-    def draw(rng: Generator) -> MasterCurve:
-        return draw_build(source, rng).master_curve
-
-    return Drawn[Rubber](source.master_curve, draw, source=source)
-
-
-def drawn_shifted(
-    source: Rubber | MasterCurveBuild, shift: TemperatureShift | None
+def drawn_rubber(
+    source: Rubber | MasterCurveBuild,
+    shift: TemperatureShift | None = None,
+    *,
+    shifted: bool = False,
 ) -> Drawn[ShiftedRubber]:
-    """A rubber with a shift; of a build, which has one, both are drawn together."""
+    """A rubber with its shift; of a build, which is one if it is `shifted` by no other, the master
+    curve and a_T as the errors of the shifts and of the spline would have them, drawn together."""
     if not isinstance(source, MasterCurveBuild):
-        assert shift is not None
         return Drawn(ShiftedRubber(source, shift))
 
     def of(build: MasterCurveBuild) -> ShiftedRubber:
-        return ShiftedRubber(build.master_curve, build if shift is None else shift)
+        return ShiftedRubber(build.master_curve, build if shifted and shift is None else shift)
 
     return Drawn(of(source), lambda rng: of(draw_build(source, rng)), source=source)
 

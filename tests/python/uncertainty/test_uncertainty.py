@@ -24,7 +24,7 @@ from asperity import (
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from asperity.uncertainty.band import relative_band, swept_band
-from asperity.uncertainty.draws import Drawn, drawn_rubber, drawn_spectrum
+from asperity.uncertainty.draws import Drawn, ShiftedRubber, drawn_rubber, drawn_spectrum
 from helpers.heat import HEATING, LAW
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
@@ -104,7 +104,7 @@ def test_draws_lie_about_the_curve_that_they_are_drawn_for():
     for seed in range(8):
         build = build_master_curve(measured_isotherms(seed, 0.05), reference_temperature=T_REF)
         solid, rng = drawn_rubber(build), np.random.default_rng(seed)
-        drawn = [np.log(friction(band, solid(rng), **scene).mu) for _ in range(60)]
+        drawn = [np.log(friction(band, solid(rng).rubber, **scene).mu) for _ in range(60)]
         centre = np.log(friction(band, build.master_curve, **scene).mu)
         off.append((np.median(drawn, axis=0) - centre) / np.std(drawn, axis=0))
     assert np.abs(off).max() < 1  # the median of 60 draws scatters by 0.16 deviations
@@ -218,9 +218,9 @@ def failing(every):
         count += 1
         if count % every == 0:
             raise OutOfRange("velocity = 1: not measured")
-        return RUBBER
+        return ShiftedRubber(RUBBER)
 
-    return Drawn(RUBBER, draw)
+    return Drawn(ShiftedRubber(RUBBER), draw)
 
 
 def test_a_band_says_how_many_draws_it_left_out():
