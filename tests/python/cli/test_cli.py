@@ -14,6 +14,7 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.io.table import Table
+from helpers.rubbers import prony
 from helpers.scenes import SCENE
 
 FRICTION = (
@@ -31,9 +32,7 @@ def rows_of(text: str) -> tuple[list[str], list[dict[str, str]]]:
 def expected() -> asperity.Friction:
     return asperity.friction(
         asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5),
-        asperity.PronySeries(
-            equilibrium_modulus=2e6, moduli=[1e9, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4]
-        ),
+        prony(2e6, [1e9, 1e8, 1e7], [1e-8, 1e-6, 1e-4]),
         pressure=[[81e3], [2e5]],
         velocity=np.geomspace(1e-4, 1, 5),
         adhesion=asperity.Adhesion(shear_stress=8.3e6),

@@ -11,16 +11,13 @@ import pytest
 import asperity
 from asperity.scene.scene import load_scene
 from asperity.validation import slide
+from helpers.rubbers import prony
 
 LENGTH, POINTS = 0.01, 128
 ROAD = asperity.SelfAffineSpectrum(
     rms_height=1e-4, hurst=0.8, q0=8 * np.pi / LENGTH, q1=32 * np.pi / LENGTH
 )
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=1e6,
-    moduli=np.geomspace(3e5, 3e8, 8),
-    relaxation_times=np.geomspace(1e-1, 1e-7, 8),
-)
+RUBBER = prony(1e6, np.geomspace(3e5, 3e8, 8), np.geomspace(1e-1, 1e-7, 8))
 NOTES = {"heights-not-gaussian", "gathered-waves"}
 
 

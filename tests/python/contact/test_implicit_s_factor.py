@@ -6,13 +6,10 @@ import pytest
 import asperity
 from helpers.examples import TREAD
 from helpers.heat import LAW
+from helpers.rubbers import prony
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=2e3)
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=1e6,
-    moduli=np.geomspace(1e8, 1e6, 7),
-    relaxation_times=np.geomspace(1e-5, 10, 7),
-)
+RUBBER = prony(1e6, np.geomspace(1e8, 1e6, 7), np.geomspace(1e-5, 10, 7))
 LOADS = np.geomspace(1e2, 1e9, 29)
 STICKY = asperity.Adhesion(shear_stress=8e6)
 HOT = {"temperature": 293.15, "shift": LAW, "heating": asperity.Heating(**TREAD)}

@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import MasterCurve, PartialContact, PronySeries
+from asperity import MasterCurve, PartialContact
 from helpers import table_rows
 from helpers.cases import case, long
+from helpers.rubbers import prony
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import partial_truth
@@ -17,11 +18,7 @@ import random_partial_tables
 import random_roots
 
 RULE = PartialContact()
-RUBBER = PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=[1e9, 3e8, 1e8, 1e7],
-    relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
-)
+RUBBER = prony(3e6, [1e9, 3e8, 1e8, 1e7], [1e-8, 1e-6, 1e-4, 1e-2])
 # scenes of seed 11 whose estimates were exceeded, by up to 2000 times, before kinks of master
 # curves, rows that the window meets and the last step of the root were counted: one in three
 EXCEEDED = [

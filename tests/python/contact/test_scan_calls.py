@@ -8,15 +8,14 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.rubbers import prony
 
 LENGTH = 0.01
 ROAD = asperity.SelfAffineSpectrum(
     rms_height=1e-4, hurst=0.8, q0=8 * np.pi / LENGTH, q1=32 * np.pi / LENGTH
 )
 SCAN = asperity.synthesize(ROAD, shape=(64, 64), pixel_size=LENGTH / 64, seed=1)
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=1e6, moduli=[2e6, 9e6], relaxation_times=[1e-1, 1e-4]
-)
+RUBBER = prony(1e6, [2e6, 9e6], [1e-1, 1e-4])
 _OF_CONTACT = 19  # columns up to its points, with the seconds that it took; errors come later
 VELOCITY = np.geomspace(1e-3, 1, 7)
 

@@ -7,11 +7,10 @@ import pytest
 
 import asperity
 from asperity.validation import slide
+from helpers.rubbers import prony
 
 LENGTH = 0.01
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=1e6, moduli=[9e6, 3e7], relaxation_times=[1e-3, 1e-5]
-)
+RUBBER = prony(1e6, [9e6, 3e7], [1e-3, 1e-5])
 ROAD = asperity.SelfAffineSpectrum(
     rms_height=1e-4,
     hurst=0.8,

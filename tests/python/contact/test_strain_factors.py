@@ -6,6 +6,7 @@ import pytest
 import asperity
 from asperity import PartialContact, SFactor, StrainFactors
 from helpers import table_rows
+from helpers.rubbers import prony
 
 KINDS = {"": None, "_s": SFactor(gamma=0.5), "_partial": PartialContact()}
 
@@ -39,9 +40,7 @@ Q = 2e3 * np.arange(1, 60)
 RINGS = asperity.TabulatedSpectrum(
     wavenumber=Q, density=ROAD.at(Q) * (1 + 0.3 * np.sin(7.0 * np.arange(59) ** 1.5))
 )
-SERIES = asperity.PronySeries(
-    equilibrium_modulus=3e6, moduli=[1e9, 3e8, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2]
-)
+SERIES = prony(3e6, [1e9, 3e8, 1e8, 1e7], [1e-8, 1e-6, 1e-4, 1e-2])
 W = np.geomspace(1e-3, 1e9, 60)
 E = SERIES.modulus(W)
 CURVE = asperity.MasterCurve(angular_frequency=W, storage_modulus=E.real, loss_modulus=E.imag)
@@ -118,11 +117,7 @@ def test_exact_contacts_of_a_scan_soften_too():
         point = {"pressure": 2e5, "velocity": 1e-2, "correction": exact}
         return asperity.friction(rows, rubber, **point, strain_factors=factors)
 
-    half = asperity.PronySeries(
-        equilibrium_modulus=1.5e6,
-        moduli=0.5 * SERIES.moduli,
-        relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
-    )
+    half = prony(1.5e6, 0.5 * SERIES.moduli, [1e-8, 1e-6, 1e-4, 1e-2])
     both = asperity.ScanContact(scan, periodic=True, tolerance=0.1)
     solved(SERIES, kind=both)
     kept = len(both.contacts)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.rubbers import prony
 
 BAND = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 1e5}
 SERIES = {"equilibrium_modulus": 3e6, "moduli": [1e7, 1e8], "relaxation_times": [1e-2, 1e-5]}
@@ -97,9 +98,7 @@ def test_tolerances_at_which_the_nodes_change(rubber, pressure):
 
 def test_a_rubber_without_terms_and_with_a_trace_of_one():
     def rubber(modulus):
-        return asperity.PronySeries(
-            equilibrium_modulus=3e6, moduli=[modulus], relaxation_times=[1e-4]
-        )
+        return prony(3e6, [modulus], [1e-4])
 
     bare = asperity.PronySeries(equilibrium_modulus=3e6, moduli=[], relaxation_times=[])
     assert mu(rubber=bare) == 0
@@ -124,11 +123,7 @@ def test_relaxation_times_from_which_on_terms_are_summed_one_by_one():
 
     def at(tau):
         # the far term is elastic and leaves the loss to the other
-        return mu(
-            rubber=asperity.PronySeries(
-                equilibrium_modulus=3e6, moduli=[1e6, 1e8], relaxation_times=[tau, 1e-4]
-            )
-        )
+        return mu(rubber=prony(3e6, [1e6, 1e8], [tau, 1e-4]))
 
     smooth(at, slowest)
 

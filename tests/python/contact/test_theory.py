@@ -7,12 +7,11 @@ import pytest
 
 import asperity
 from asperity import HeightMap, PronySeries, SelfAffineSpectrum, TabulatedSpectrum
+from helpers.rubbers import prony
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(20)
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=1e6)
-RUBBER = PronySeries(
-    equilibrium_modulus=3e6, moduli=[1e9, 3e8, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2]
-)
+RUBBER = prony(3e6, [1e9, 3e8, 1e8, 1e7], [1e-8, 1e-6, 1e-4, 1e-2])
 SCENE = {"velocity": 0.01, "pressure": 1e6}
 
 

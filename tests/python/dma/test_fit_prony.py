@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import InvalidInput, MasterCurve, NotConverged, PronySeries
+from asperity import InvalidInput, MasterCurve, NotConverged
 from helpers.refusals import refused
+from helpers.rubbers import prony
 
-FEW = PronySeries(
-    equilibrium_modulus=1e6, moduli=[3e6, 2e7, 3e8], relaxation_times=[0.37, 2.3e-3, 1.7e-5]
-)
+FEW = prony(1e6, [3e6, 2e7, 3e8], [0.37, 2.3e-3, 1.7e-5])
 CONTRADICTIONS = {"moduli-disagree": "warning", "moduli-contradict": "fatal"}
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")  # of contradictions
 

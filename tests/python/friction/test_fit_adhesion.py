@@ -8,12 +8,11 @@ import pytest
 import asperity
 from asperity import Adhesion, AffineShift, InvalidInput, fit_adhesion, friction
 from helpers.refusals import refused
+from helpers.rubbers import prony
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
 ROAD = ROAD.truncated(q1=ROAD.cutoff_for_slope(1.3))
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=3e6, moduli=[1e7, 1e8, 1e9], relaxation_times=[1e-2, 1e-4, 1e-6]
-)
+RUBBER = prony(3e6, [1e7, 1e8, 1e9], [1e-2, 1e-4, 1e-6])
 TRUTH = Adhesion(shear_stress=8.3e6)
 MODEL = {"correction": AffineShift(2.0)}
 NAMES = ("shear_stress", "reference_velocity", "width")
@@ -107,10 +106,10 @@ def test_errors_are_the_scatter_of_fits_to_noise_and_outliers(outliers):
 def test_units_of_pressure_and_of_velocity(modulus, time):
     points = measured(np.geomspace(1e-5, 1e-1, 16), noise=0.05)
     first = fit_adhesion(ROAD, RUBBER, **points)
-    other = asperity.PronySeries(
-        equilibrium_modulus=modulus * RUBBER.equilibrium_modulus,
-        moduli=modulus * RUBBER.moduli,
-        relaxation_times=time * RUBBER.relaxation_times,
+    other = prony(
+        modulus * RUBBER.equilibrium_modulus,
+        modulus * RUBBER.moduli,
+        time * RUBBER.relaxation_times,
     )
     points |= {"pressure": modulus * 81e3, "velocity": points["velocity"] / time}
     fit = fit_adhesion(ROAD, other, **points)

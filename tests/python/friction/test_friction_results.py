@@ -7,12 +7,11 @@ import pytest
 
 import asperity
 from asperity import GreenwoodWilliamson, MasterCurve, OutOfRange, PronySeries, SelfAffineSpectrum
+from helpers.rubbers import prony
 
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)  # rms slope below 1.3
 STEEP = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=1e6)
-RUBBER = PronySeries(
-    equilibrium_modulus=3e6, moduli=[1e9, 3e8, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2]
-)
+RUBBER = prony(3e6, [1e9, 3e8, 1e8, 1e7], [1e-8, 1e-6, 1e-4, 1e-2])
 SCENE = {"pressure": 2e5, "velocity": 0.005}
 
 

@@ -6,13 +6,10 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.rubbers import prony
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2000, q1=1e6)
-SERIES = asperity.PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=np.geomspace(1e6, 3e8, 9),
-    relaxation_times=np.geomspace(1e-2, 1e-9, 9),
-)
+SERIES = prony(3e6, np.geomspace(1e6, 3e8, 9), np.geomspace(1e-2, 1e-9, 9))
 ELASTIC = asperity.PronySeries(equilibrium_modulus=3e6, moduli=[], relaxation_times=[])
 STICKY = asperity.Adhesion(shear_stress=1e7)
 HOT = {

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.rubbers import prony
 
 
 def with_changes(made, **more):
@@ -26,11 +27,7 @@ ANGLES = np.random.default_rng(5).uniform(-0.3, 0.3, (Q.size, 3)) * [1, 0.5, 0.2
 GROUND = asperity.TabulatedSpectrum(
     wavenumber=Q, density=ROAD.at(Q) * SCATTER, cosine=0.2 + ANGLES, sine=ANGLES[::-1]
 )
-SERIES = asperity.PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=np.geomspace(1e6, 3e8, 9),
-    relaxation_times=np.geomspace(1e-2, 1e-9, 9),
-)
+SERIES = prony(3e6, np.geomspace(1e6, 3e8, 9), np.geomspace(1e-2, 1e-9, 9))
 W = np.geomspace(1e-5, 1e11, 60)
 MEASURED = asperity.MasterCurve(
     angular_frequency=W,

@@ -5,12 +5,11 @@ import pytest
 
 import asperity
 from helpers import table_rows
+from helpers.rubbers import prony
 
 METHODS = ("qag", "qags", "cquad")
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=3e6, moduli=[1e7, 1e8, 1e9], relaxation_times=[1e-2, 1e-4, 1e-6]
-)
+RUBBER = prony(3e6, [1e7, 1e8, 1e9], [1e-2, 1e-4, 1e-6])
 W = np.geomspace(1e-2, 1e8, 21)
 MEASURED = asperity.MasterCurve(  # with steps, as of a bad master curve
     angular_frequency=W,

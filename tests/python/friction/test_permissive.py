@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.rubbers import prony
 
 LICENCE = importlib.metadata.metadata("asperity")["License-Expression"]
 pytestmark = pytest.mark.skipif(LICENCE != "BSD-3-Clause", reason="this build has GSL and FFTW")
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2000, q1=1e6)
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=3e6, moduli=[1e7, 1e8, 1e9], relaxation_times=[1e-2, 1e-4, 1e-6]
-)
+RUBBER = prony(3e6, [1e7, 1e8, 1e9], [1e-2, 1e-4, 1e-6])
 
 
 @pytest.mark.parametrize("method", ["qag", "qags", "cquad"])

@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import asperity
+from helpers.rubbers import prony
 
 hypothesis.settings.register_profile(
     "short", max_examples=40, derandomize=True, deadline=None, database=None
@@ -49,9 +50,7 @@ def rubbers(draw):
     terms = draw(st.integers(0, 8))
     moduli = draw(st.lists(power(4, 9.5), min_size=terms, max_size=terms))
     times = draw(st.lists(power(-10, 2), min_size=terms, max_size=terms))
-    return asperity.PronySeries(
-        equilibrium_modulus=draw(power(5, 7)), moduli=moduli, relaxation_times=times
-    )
+    return prony(draw(power(5, 7)), moduli, times)
 
 
 @st.composite
@@ -186,10 +185,10 @@ def in_units(surface, rubber, length, pressure, time):
             q0=surface.q0 / length,
             q1=surface.q1 / length,
         )
-    rubber = asperity.PronySeries(
-        equilibrium_modulus=rubber.equilibrium_modulus * pressure,
-        moduli=rubber.moduli * pressure,
-        relaxation_times=rubber.relaxation_times * time,
+    rubber = prony(
+        rubber.equilibrium_modulus * pressure,
+        rubber.moduli * pressure,
+        rubber.relaxation_times * time,
     )
     return surface, rubber
 

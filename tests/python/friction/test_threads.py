@@ -6,13 +6,10 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.rubbers import prony
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=2e3)
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=1e6,
-    moduli=np.geomspace(1e6, 1e8, 8),
-    relaxation_times=10.0 ** -np.arange(8),
-)
+RUBBER = prony(1e6, np.geomspace(1e6, 1e8, 8), 10.0 ** -np.arange(8))
 RINGS = 1e3 * np.arange(1, 101)
 SCATTER = 1 + 0.3 * np.random.default_rng(1).uniform(-1, 1, 100)
 SCAN = asperity.TabulatedSpectrum(wavenumber=RINGS, density=1e-12 * (RINGS / 1e3) ** -3.6 * SCATTER)

@@ -10,6 +10,7 @@ import asperity
 from helpers.cases import case
 from helpers.examples import TREAD
 from helpers.heat import ASPHALT, LAW, hot
+from helpers.rubbers import prony
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import random_heat
@@ -65,11 +66,7 @@ def test_a_line_that_runs_away_by_itself(line):
     for row, times in lines.items():
         density[row] *= times
     at = {
-        "rubber": asperity.PronySeries(
-            equilibrium_modulus=3e6,
-            moduli=np.geomspace(1e9, 1e6, terms),
-            relaxation_times=np.geomspace(1e-9, 1e-1, terms),
-        ),
+        "rubber": prony(3e6, np.geomspace(1e9, 1e6, terms), np.geomspace(1e-9, 1e-1, terms)),
         "pressure": 1e5,
         "velocity": v,
         "temperature": temperature,
@@ -85,11 +82,7 @@ def test_a_line_that_runs_away_by_itself(line):
 @pytest.mark.parametrize("temperature", [275.6, 275.625, 275.65, 275.7, 275.725])
 def test_states_about_a_gain_of_one(temperature):
     """Two of three states meet at 275.71 K, from where on the rise is 47 instead of 38 K."""
-    compound = asperity.PronySeries(
-        equilibrium_modulus=3e6,
-        moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
-        relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
-    )
+    compound = prony(3e6, [4e8, 3e8, 1e8, 3e7, 1e7], [1e-8, 1e-7, 1e-6, 1e-4, 1e-2])
     at = {
         "velocity": 0.049652395705,
         "pressure": 12863.8338001,
@@ -105,11 +98,7 @@ def test_states_about_a_gain_of_one(temperature):
 def test_a_curve_stays_on_the_coldest_state():
     """Macro-asperities that stay colder than q1 make three states where one temperature has one."""
     at = {
-        "rubber": asperity.PronySeries(
-            equilibrium_modulus=1.04e6,
-            moduli=[1.82e8, 8.34e7, 8.1e7],
-            relaxation_times=[1.67e-9, 1.44e-6, 1.25e-3],
-        ),
+        "rubber": prony(1.04e6, [1.82e8, 8.34e7, 8.1e7], [1.67e-9, 1.44e-6, 1.25e-3]),
         "heating": asperity.Heating(
             **TREAD | {"conductivity": 0.49, "contact_diameter": 5e-4, "residence": "box"}
         ),
@@ -169,9 +158,9 @@ RUNAWAY = {  # at a gain of 0.94 to 0.98, where a residual counts 15 to 50 times
     "spectrum": asperity.SelfAffineSpectrum(
         rms_height=4.45052e-05, hurst=0.925827, q0=1741.46, q1=107879
     ),
-    "rubber": asperity.PronySeries(
-        equilibrium_modulus=4309089.67,
-        moduli=[
+    "rubber": prony(
+        4309089.67,
+        [
             6.10205837e7,
             3.04874174e8,
             4.34892323e8,
@@ -181,7 +170,7 @@ RUNAWAY = {  # at a gain of 0.94 to 0.98, where a residual counts 15 to 50 times
             4.53718175e5,
             4.4759352e5,
         ],
-        relaxation_times=[
+        [
             1.6547379e-10,
             7.97568323e-9,
             3.84420537e-7,

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.rubbers import prony
 
 HEAT = asperity.Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
 LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
@@ -17,11 +18,7 @@ def scattered(seed: int) -> tuple[asperity.TabulatedSpectrum, asperity.MasterCur
     road = asperity.SelfAffineSpectrum(rms_height=3e-7, hurst=0.6, q0=4e3, q1=3e6)
     density = road.at(wavenumber) * np.exp(0.3 * rng.normal(size=wavenumber.size))
     frequency = np.sort(10 ** rng.uniform(-4, 9, 160))
-    modulus = asperity.PronySeries(
-        equilibrium_modulus=3e6,
-        moduli=np.geomspace(2e6, 3e8, 14),
-        relaxation_times=np.geomspace(1e3, 1e-9, 14),
-    ).modulus(frequency)
+    modulus = prony(3e6, np.geomspace(2e6, 3e8, 14), np.geomspace(1e3, 1e-9, 14)).modulus(frequency)
     curve = asperity.MasterCurve(
         angular_frequency=frequency,
         storage_modulus=modulus.real * np.exp(0.03 * rng.normal(size=frequency.size)),

@@ -5,6 +5,7 @@ import io
 import numpy as np
 
 import asperity
+from helpers.rubbers import prony
 
 
 def scan_bytes() -> bytes:
@@ -18,11 +19,7 @@ def scan_bytes() -> bytes:
 
 def dma_bytes() -> bytes:
     """Shear moduli in MPa at seven temperatures, with units below the names."""
-    rubber = asperity.PronySeries(
-        equilibrium_modulus=3e6,
-        moduli=10 ** np.linspace(6, 9, 16),
-        relaxation_times=10 ** np.linspace(2, -8, 16),
-    )
+    rubber = prony(3e6, 10 ** np.linspace(6, 9, 16), 10 ** np.linspace(2, -8, 16))
     lines = ["Temperature;Freq;G';G\"", "°C;Hz;MPa;MPa"]
     for celsius in range(0, 61, 10):
         for hertz in np.geomspace(0.1, 30, 12):

@@ -6,6 +6,7 @@ import warnings
 import numpy as np
 
 import asperity
+from helpers.rubbers import prony
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=2e3)
 RUBBER = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
@@ -87,11 +88,9 @@ SLIDING = {"pressure": [1e5, 2e5], "velocity": 0.01}
 def isotherm(temperature, log10_a_T):  # noqa: N803
     """Of a broad rubber; a second point within 1 % of the first, which are averaged."""
     w = np.array([1.0, 1.009, 3.0, 10.0, 30.0, 100.0])
-    modulus = asperity.PronySeries(
-        equilibrium_modulus=1e6,
-        moduli=np.geomspace(1e8, 1e6, 7),
-        relaxation_times=np.geomspace(1e-5, 10, 7),
-    ).modulus(w * 10**log10_a_T)
+    modulus = prony(1e6, np.geomspace(1e8, 1e6, 7), np.geomspace(1e-5, 10, 7)).modulus(
+        w * 10**log10_a_T
+    )
     return asperity.Isotherm(
         temperature=temperature,
         angular_frequency=w,

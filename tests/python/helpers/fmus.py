@@ -13,11 +13,11 @@ from asperity import (
     WLF,
     FrictionMap,
     Heating,
-    PronySeries,
     SelfAffineSpectrum,
     friction_map,
 )
 from asperity.fmu.export import platforms
+from helpers.rubbers import prony
 
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # of both standards
 BOX = {"pressure": (5e4, 1e6), "velocity": (1e-5, 3.0)}
@@ -111,10 +111,6 @@ LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 
 def hot_map(temperature: float | tuple[float, float]) -> FrictionMap:
     surface = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
-    rubber = PronySeries(
-        equilibrium_modulus=3e6,
-        moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
-        relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
-    )
+    rubber = prony(3e6, [4e8, 3e8, 1e8, 3e7, 1e7], [1e-8, 1e-7, 1e-6, 1e-4, 1e-2])
     box = {"pressure": (8e4, 4e5), "velocity": (0.5, 2.0), "temperature": temperature}
     return friction_map(surface, rubber, **box, shift=LAW, heating=TREAD, checked=0, rtol=3e-2)

@@ -2,13 +2,10 @@
 
 import numpy as np
 
-from asperity import PronySeries, SelfAffineSpectrum, TabulatedSpectrum
+from asperity import SelfAffineSpectrum, TabulatedSpectrum
+from helpers.rubbers import prony
 
-RUBBER = PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=[1e9, 3e8, 1e8, 1e7],
-    relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
-)
+RUBBER = prony(3e6, [1e9, 3e8, 1e8, 1e7], [1e-8, 1e-6, 1e-4, 1e-2])
 Q = np.geomspace(2e3, 2e5, 60)
 C = 1e-16 * (Q / 2e3) ** -3.6
 

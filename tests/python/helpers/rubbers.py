@@ -1,12 +1,18 @@
-"""A synthetic rubber whose truth is a formula, and its isotherms."""
+"""Series of terms, and a synthetic rubber whose truth is a formula, with its isotherms."""
 
 import numpy as np
 
-from asperity import Isotherm, build_master_curve
+from asperity import Isotherm, PronySeries, build_master_curve
 
 T_REF = 293.15
 TEMPERATURES = np.arange(-30, 78, 5) + 273.15  # 22
 SWEEP = 2 * np.pi * np.geomspace(0.1, 30, 16)  # [rad/s]
+
+
+def prony(equilibrium_modulus, moduli, relaxation_times):
+    return PronySeries(
+        equilibrium_modulus=equilibrium_modulus, moduli=moduli, relaxation_times=relaxation_times
+    )
 
 
 def true_modulus(w):

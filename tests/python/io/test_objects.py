@@ -10,6 +10,7 @@ import pytest
 import asperity
 from asperity import HeightMap, InvalidInput, LineScan, power_spectrum, read_surface
 from asperity.scene.scene import load_scene
+from helpers.rubbers import prony
 from helpers.scenes import CONDITIONS, RUBBER
 
 MAP = HeightMap(np.random.default_rng(1).normal(size=(20, 31)) * 1e-6, pixel_size=(2e-6, 1e-6))
@@ -74,9 +75,7 @@ def test_other_tables_are_refused(columns: tuple[str, ...]) -> None:
 def test_moduli_of_tables() -> None:
     pandas = pytest.importorskip("pandas")
     w = np.geomspace(0.1, 100, 12)
-    rubber = asperity.PronySeries(
-        equilibrium_modulus=3e6, moduli=[1e7, 1e8], relaxation_times=[1, 1e-2]
-    )
+    rubber = prony(3e6, [1e7, 1e8], [1, 1e-2])
     parts = []
     for celsius in (0.0, 20.0, 40.0):
         e = rubber.modulus(w * 10 ** (-0.05 * celsius)) / 1e6

@@ -10,15 +10,12 @@ import asperity
 from asperity import InvalidInput, prony_input, read_shift_factors
 from asperity.cli.main import main
 from asperity.io import plausible
+from helpers.rubbers import prony
 
 LIQUID = asperity.PronySeries(equilibrium_modulus=0, moduli=[1e6], relaxation_times=[1.0])
 CELSIUS = np.array([60.0, 40, 20, 0, -20])
 SHIFTS = np.array([-2.0, -1.25, 0, 2, 5.5])
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=10 ** np.linspace(6, 9, 8),
-    relaxation_times=10 ** np.linspace(2, -8, 8),
-)
+RUBBER = prony(3e6, 10 ** np.linspace(6, 9, 8), 10 ** np.linspace(2, -8, 8))
 
 
 @pytest.mark.parametrize(

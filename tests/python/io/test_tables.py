@@ -10,15 +10,12 @@ import asperity
 from asperity import InvalidInput, read_isotherms, read_master_curve
 from asperity.io import plausible
 from asperity.scene.scene import load_scene
+from helpers.rubbers import prony
 from helpers.scenes import CONDITIONS, SURFACE
 
 COLUMNS: dict[str, Any] = {"frequency": "f", "storage": "E'", "loss": "E''"}
 UNITS = {"frequency": "Hz", "modulus": "MPa"}
-MODULUS = asperity.PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=10 ** np.linspace(6, 9, 16),
-    relaxation_times=10 ** np.linspace(2, -8, 16),
-).modulus
+MODULUS = prony(3e6, 10 ** np.linspace(6, 9, 16), 10 ** np.linspace(2, -8, 16)).modulus
 HERTZ = np.geomspace(1e-12, 1e3, 40)
 
 

@@ -10,13 +10,10 @@ import asperity
 from asperity import InvalidInput, read_isotherms
 from asperity.io import plausible
 from asperity.scene.scene import load_scene
+from helpers.rubbers import prony
 from helpers.scenes import CONDITIONS, SURFACE
 
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=10 ** np.linspace(6, 9, 16) / 3,
-    relaxation_times=10 ** np.linspace(2, -8, 16),
-)
+RUBBER = prony(3e6, 10 ** np.linspace(6, 9, 16) / 3, 10 ** np.linspace(2, -8, 16))
 LAW = asperity.WLF(c1=10.0, c2=80.0, reference_temperature=293.15)
 HERTZ = np.geomspace(0.1, 50, 9)
 CELSIUS = (0, 10, 20, 30)

@@ -6,10 +6,9 @@ import pytest
 from asperity import InvalidInput, MasterCurve, OutOfRange, PronySeries
 from helpers.awkward_moduli import TABLES
 from helpers.by_definition import NODES, WEIGHTS, Definition, z_of
+from helpers.rubbers import prony
 
-SERIES = PronySeries(
-    equilibrium_modulus=1e6, moduli=[1e6, 1e7, 3e8, 5e8], relaxation_times=[1e-1, 1e-4, 1e-7, 1e-9]
-)
+SERIES = prony(1e6, [1e6, 1e7, 3e8, 5e8], [1e-1, 1e-4, 1e-7, 1e-9])
 
 EVEN = TABLES["30 decades"]
 

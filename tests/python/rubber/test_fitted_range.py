@@ -8,14 +8,11 @@ import pytest
 from scipy.integrate import quad
 
 import asperity
-from asperity import OutOfRange, PronySeries, SelfAffineSpectrum
+from asperity import OutOfRange, SelfAffineSpectrum
+from helpers.rubbers import prony
 
 ROAD = SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5)
-TRUE = PronySeries(
-    equilibrium_modulus=1e6,
-    moduli=[3e6, 1e7, 4e7, 2e8, 5e8],
-    relaxation_times=[1e-1, 1e-2, 1e-3, 1e-4, 1e-5],
-)
+TRUE = prony(1e6, [3e6, 1e7, 4e7, 2e8, 5e8], [1e-1, 1e-2, 1e-3, 1e-4, 1e-5])
 SHARE = "the Prony series is asked beyond the frequencies that it was fitted on"
 
 
@@ -34,11 +31,7 @@ BEYOND = fitted(extrapolation="prony")
 
 def parts_outside(series, w):
     """Shares of I1 and I2 from |w cos(phi)| beyond the fitted range, by quadrature over phi."""
-    plain = PronySeries(
-        equilibrium_modulus=series.equilibrium_modulus,
-        moduli=series.moduli,
-        relaxation_times=series.relaxation_times,
-    )
+    plain = prony(series.equilibrium_modulus, series.moduli, series.relaxation_times)
 
     def part(weigh, low, high):  # w cos(phi) from `low` to `high`
         ends = [np.arccos(min(1.0, end / w)) for end in (high, low)]
@@ -127,11 +120,7 @@ def test_the_macro_asperities_of_a_correction_are_asked_on_the_fitted_frequencie
 
 
 def test_a_series_given_by_hand_has_no_range():
-    by_hand = PronySeries(
-        equilibrium_modulus=SERIES.equilibrium_modulus,
-        moduli=SERIES.moduli,
-        relaxation_times=SERIES.relaxation_times,
-    )
+    by_hand = prony(SERIES.equilibrium_modulus, SERIES.moduli, SERIES.relaxation_times)
     w = np.array([0.0, 1.0, 1e9])
     np.testing.assert_array_equal(by_hand.modulus(w), BEYOND.modulus(w))
     np.testing.assert_array_equal(by_hand.extrapolated_shares(w[1:]), 0)

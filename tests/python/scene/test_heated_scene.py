@@ -11,6 +11,7 @@ import asperity
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
+from helpers.rubbers import prony
 from helpers.scenes import HEATING, LAW
 
 WLF = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
@@ -58,9 +59,7 @@ def test_a_list_of_temperatures_is_a_block_of_rows_each(folder, capsys):
     for t, block in ((283.15, result[:10]), (300.0, result[10:])):
         expected = asperity.friction(
             load_scene(written(scene(f"temperature_k = {t}"))).spectrum,
-            asperity.PronySeries(
-                equilibrium_modulus=2e6, moduli=[1e9, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4]
-            ),
+            prony(2e6, [1e9, 1e8, 1e7], [1e-8, 1e-6, 1e-4]),
             pressure=[float(row["pressure_pa"]) for row in block],
             velocity=[float(row["velocity_m_s"]) for row in block],
             adhesion=asperity.Adhesion(shear_stress=8.3e6),

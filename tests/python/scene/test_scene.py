@@ -10,11 +10,10 @@ import pytest
 import asperity
 from asperity.scene.model import COLUMNS
 from asperity.scene.scene import load_scene
+from helpers.rubbers import prony
 from helpers.scenes import CONDITIONS, CURVE, RUBBER, SCAN, SURFACE
 
-PRONY = asperity.PronySeries(
-    equilibrium_modulus=2e6, moduli=[1e9, 1e8, 1e7], relaxation_times=[1e-8, 1e-6, 1e-4]
-)
+PRONY = prony(2e6, [1e9, 1e8, 1e7], [1e-8, 1e-6, 1e-4])
 SPECTRUM = asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5)
 
 

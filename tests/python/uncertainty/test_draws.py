@@ -5,6 +5,7 @@ import pytest
 
 import asperity
 from asperity.uncertainty.draws import draw_adhesion, draw_fit
+from helpers.rubbers import prony
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=2e-4, hurst=0.7, q0=2e3, q1=2e5, rolloff=8e3)
 
@@ -97,9 +98,7 @@ def test_bands_of_directions_are_as_wide_as_scans_scatter():
     law = asperity.SelfAffineSpectrum(
         rms_height=1e-3, hurst=0.8, q0=3.5 * 2 * np.pi, q1=58 * 2 * np.pi, axis_ratio=2.5, lay=1.9
     )
-    rubber = asperity.PronySeries(
-        equilibrium_modulus=1e6, moduli=[9e6, 2e7], relaxation_times=[1e-1, 1e-3]
-    )
+    rubber = prony(1e6, [9e6, 2e7], [1e-1, 1e-3])
     at = {"pressure": 2e5, "velocity": 0.1, "correction": asperity.PartialContact()}
     at["direction"] = np.radians([0, 60, 110, 160])
     how = {"window": "none", "detrend": None, "directional": True}

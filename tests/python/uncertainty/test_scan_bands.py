@@ -7,14 +7,11 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.rubbers import prony
 
 PIXEL, SIDE, SCANS = 1e-4, 128, 4
 Q0, Q1 = 2 * np.pi / (SIDE * PIXEL / 3), 2 * np.pi / (8 * PIXEL)
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=1e6,
-    moduli=np.geomspace(1e6, 1e8, 6),
-    relaxation_times=np.geomspace(1e-1, 1e-6, 6),
-)
+RUBBER = prony(1e6, np.geomspace(1e6, 1e8, 6), np.geomspace(1e-1, 1e-6, 6))
 SCENE = {"pressure": np.array([5e4, 5e5]), "velocity": np.array([1e-2, 1e-2])}
 
 

@@ -26,17 +26,14 @@ from asperity.scene.scene import load_scene
 from asperity.uncertainty.band import relative_band, swept_band
 from asperity.uncertainty.draws import Drawn, ShiftedRubber, drawn_rubber, drawn_spectrum
 from helpers.heat import HEATING, LAW
+from helpers.rubbers import prony
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 from band_coverage import KINDS
 from coverage_isotherms import trial
 
 ROAD = SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e5)
-RUBBER = PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=np.geomspace(2e8, 2e6, 9),
-    relaxation_times=np.geomspace(1e-8, 1e0, 9),
-)
+RUBBER = prony(3e6, np.geomspace(2e8, 2e6, 9), np.geomspace(1e-8, 1e0, 9))
 SCENE = {"pressure": 2e5, "velocity": [1e-4, 1e-3, 1e-2]}
 TEMPERATURES = np.arange(263.0, 324.0, 10.0)
 T_REF = 293.0

@@ -9,14 +9,13 @@ import pytest
 import asperity
 from asperity.base.codes import FATAL, NOTES, WARNING
 from helpers.heat import HEATING, LAW
+from helpers.rubbers import prony
 
 PAGE = Path(__file__).parents[3] / "docs/howto/fatal_notes.md"
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=3e4)
 STEEP = asperity.SelfAffineSpectrum(rms_height=5e-4, hurst=0.8, q0=2e3, q1=1e7)
 RUBBER = asperity.PronySeries(equilibrium_modulus=3e6, moduli=[1e8], relaxation_times=[1e-4])
-SOFT = asperity.PronySeries(
-    equilibrium_modulus=3e6, moduli=[1e7] * 5, relaxation_times=np.geomspace(1e-8, 1e-4, 5)
-)
+SOFT = prony(3e6, [1e7] * 5, np.geomspace(1e-8, 1e-4, 5))
 
 
 def test_the_page_has_every_note_that_is_to_be_acted_on() -> None:

@@ -7,14 +7,11 @@ import numpy as np
 import pytest
 
 import asperity
+from helpers.rubbers import prony
 
 THREADS = 80
 SURFACE = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=1e5)
-PRONY = asperity.PronySeries(
-    equilibrium_modulus=1e6,
-    moduli=np.geomspace(1e9, 1e6, 12),
-    relaxation_times=10.0 ** -np.arange(12),
-)
+PRONY = prony(1e6, np.geomspace(1e9, 1e6, 12), 10.0 ** -np.arange(12))
 CONDITIONS = {"pressure": 1e5, "velocity": np.geomspace(1e-4, 1, 5)}
 MAP = asperity.HeightMap(np.random.default_rng(0).normal(size=(120, 90)), pixel_size=(2e-6, 1e-6))
 HOLED = asperity.HeightMap(np.where(np.abs(MAP.heights) > 2, np.nan, MAP.heights), pixel_size=1e-6)
