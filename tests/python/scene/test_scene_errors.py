@@ -44,84 +44,57 @@ HEX, SWEEP = "0x" + "f" * 5000, "{from = 1, to = 2, points = 100001}"
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "argument"),
+    ("scene", "old", "new", "argument"),
     [
-        ("hurst = 0.7", "", "hurst"),
-        ("hurst", "Hurst", "Hurst"),
-        ("0.7", "'a'", "hurst"),
-        ("0.7", "1.2", "hurst"),
-        ("0.7", HEX, "hurst"),
-        ("0.7", "0.7\nfile = 'scan.npy'", "rms_height_m"),
-        ("0.7", "0.7\nunit = 'm'", "unit"),
-        ("0.7", "0.7\ncontamination_size_m = 1.0", "contamination_size_m"),
-        ("0.7", "0.7\ncontamination_size_m = 3.07e-3", "contamination_size_m"),
-        ("0.7", "0.7\nslope_cutoff = 0", "slope_cutoff"),
-        ("rms_height_m = 76", "rms_height_m = -76", "rms_height_m"),
-        ("q1_per_m = 1e5", "q1_per_m = 1e3", "q1_per_m"),
+        (BASE, "hurst = 0.7", "", "[surface] hurst"),
+        (BASE, "hurst", "Hurst", "[surface] Hurst"),
+        (BASE, "0.7", "'a'", "[surface] hurst"),
+        (BASE, "0.7", "1.2", "[surface] hurst"),
+        (BASE, "0.7", HEX, "[surface] hurst"),
+        (BASE, "0.7", "0.7\nfile = 'scan.npy'", "[surface] rms_height_m"),
+        (BASE, "0.7", "0.7\nunit = 'm'", "[surface] unit"),
+        (BASE, "0.7", "0.7\ncontamination_size_m = 1.0", "[surface] contamination_size_m"),
+        (BASE, "0.7", "0.7\ncontamination_size_m = 3.07e-3", "[surface] contamination_size_m"),
+        (BASE, "0.7", "0.7\nslope_cutoff = 0", "[surface] slope_cutoff"),
+        (BASE, "rms_height_m = 76", "rms_height_m = -76", "[surface] rms_height_m"),
+        (BASE, "q1_per_m = 1e5", "q1_per_m = 1e3", "[surface] q1_per_m"),
+        (SCANNED, 'unit = "um"', "", "[surface] unit"),
+        (SCANNED, '"um"', "'inch'", "[surface] unit"),
+        (SCANNED, "unit", f"channel = {HEX}\nunit", "[surface] channel"),
+        (SCANNED, "unit", "q0_per_m = 1\nunit", "[surface] q0_per_m"),
+        (SCANNED, "unit", "window = 'x'\nunit", "[surface] window"),
+        (SCANNED, "unit", "detrend = 'x'\nunit", "[surface] detrend"),
+        (SCANNED, "[2e-5, 1e-5]", "[1, 2, 3]", "[surface] pixel_size_m"),
+        (SCANNED, "[2e-5, 1e-5]", "-1", "[surface] pixel_size_m"),
+        (SCANNED, "scan.npy", "", "[surface] file"),
+        (SCANNED, "scan.npy", "a\\u0000b", "[surface] file"),
+        (BASE, "moduli_pa", "modulus_pa", "[rubber] modulus_pa"),
+        (BASE, "[1e9, 1e8, 1e7]", "1e9", "[rubber] moduli_pa"),
+        (BASE, "[1e-8,", "[1e-8, 1.0,", "[rubber] moduli_pa"),
+        (BASE, "[1e-8,", "[-1e-8,", "[rubber] relaxation_times_s"),
+        (BASE, "= 2e6", "= -2e6", "[rubber] equilibrium_modulus_pa"),
+        (BASE, "equilibrium", "extrapolation = 'clamp'\nequilibrium", "[rubber] extrapolation"),
+        (BASE, RUBBER, CURVE.replace("curve.csv", ""), "[rubber] master_curve"),
+        (BASE, RUBBER, CURVE + "moduli_pa = []", "[rubber] moduli_pa"),
+        (BASE, RUBBER, CURVE + "isotherms = ['a.csv']", "[rubber] master_curve"),
+        (BASE, "pressure_pa", "presure_pa", "[conditions] presure_pa"),
+        (BASE, "pressure_pa", "pressure_kpa", "[conditions] pressure_kpa"),
+        (BASE, "velocity_m_s = {from = 1e-4, to = 1, points = 5}", "", "[conditions] velocity_m_s"),
+        (BASE, "[81e3, 2e5]", "[]", "[conditions] pressure_pa"),
+        (BASE, "[81e3, 2e5]", "['a']", "[conditions] pressure_pa"),
+        (BASE, "[81e3, 2e5]", "'1 bar'", "[conditions] pressure_pa"),
+        (BASE, "[81e3, 2e5]", "-1", "[conditions] pressure_pa"),
+        (BASE, "[81e3, 2e5]", SWEEP, "[conditions] pressure_pa"),
+        (BASE, "from =", "form =", "[conditions] velocity_m_s"),
+        (BASE, "points = 5", "pionts = 5", "[conditions] velocity_m_s"),
+        (BASE, "to = 1", "to = 'x'", "[conditions] velocity_m_s"),
+        (BASE, "from = 1e-4", "from = 0", "[conditions] velocity_m_s"),
+        (BASE, "points = 5", "points = 5.0", "[conditions] velocity_m_s"),
+        (BASE, "pressure_pa", "poisson_ratio = 0.6\npressure_pa", "[conditions] poisson_ratio"),
     ],
 )
-def test_surfaces(folder: Path, old: str, new: str, argument: str) -> None:
-    assert refused(folder, BASE.replace(old, new)).argument == f"[surface] {argument}"
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "argument"),
-    [
-        ('unit = "um"', "", "unit"),
-        ('"um"', "'inch'", "unit"),
-        ("unit", f"channel = {HEX}\nunit", "channel"),
-        ("unit", "q0_per_m = 1\nunit", "q0_per_m"),
-        ("unit", "window = 'x'\nunit", "window"),
-        ("unit", "detrend = 'x'\nunit", "detrend"),
-        ("[2e-5, 1e-5]", "[1, 2, 3]", "pixel_size_m"),
-        ("[2e-5, 1e-5]", "-1", "pixel_size_m"),
-        ("scan.npy", "", "file"),
-        ("scan.npy", "a\\u0000b", "file"),
-    ],
-)
-def test_scans(folder: Path, old: str, new: str, argument: str) -> None:
-    assert refused(folder, SCANNED.replace(old, new)).argument == f"[surface] {argument}"
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "argument"),
-    [
-        ("moduli_pa", "modulus_pa", "modulus_pa"),
-        ("[1e9, 1e8, 1e7]", "1e9", "moduli_pa"),
-        ("[1e-8,", "[1e-8, 1.0,", "moduli_pa"),
-        ("[1e-8,", "[-1e-8,", "relaxation_times_s"),
-        ("= 2e6", "= -2e6", "equilibrium_modulus_pa"),
-        ("equilibrium", "extrapolation = 'clamp'\nequilibrium", "extrapolation"),
-        (RUBBER, CURVE.replace("curve.csv", ""), "master_curve"),
-        (RUBBER, CURVE + "moduli_pa = []", "moduli_pa"),
-        (RUBBER, CURVE + "isotherms = ['a.csv']", "master_curve"),
-    ],
-)
-def test_rubbers(folder: Path, old: str, new: str, argument: str) -> None:
-    assert refused(folder, BASE.replace(old, new)).argument == f"[rubber] {argument}"
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "argument"),
-    [
-        ("pressure_pa", "presure_pa", "presure_pa"),
-        ("pressure_pa", "pressure_kpa", "pressure_kpa"),
-        ("velocity_m_s = {from = 1e-4, to = 1, points = 5}", "", "velocity_m_s"),
-        ("[81e3, 2e5]", "[]", "pressure_pa"),
-        ("[81e3, 2e5]", "['a']", "pressure_pa"),
-        ("[81e3, 2e5]", "'1 bar'", "pressure_pa"),
-        ("[81e3, 2e5]", "-1", "pressure_pa"),
-        ("[81e3, 2e5]", SWEEP, "pressure_pa"),
-        ("from =", "form =", "velocity_m_s"),
-        ("points = 5", "pionts = 5", "velocity_m_s"),
-        ("to = 1", "to = 'x'", "velocity_m_s"),
-        ("from = 1e-4", "from = 0", "velocity_m_s"),
-        ("points = 5", "points = 5.0", "velocity_m_s"),
-        ("pressure_pa", "poisson_ratio = 0.6\npressure_pa", "poisson_ratio"),
-    ],
-)
-def test_conditions(folder: Path, old: str, new: str, argument: str) -> None:
-    assert refused(folder, BASE.replace(old, new)).argument == f"[conditions] {argument}"
+def test_tables(folder: Path, scene: str, old: str, new: str, argument: str) -> None:
+    assert refused(folder, scene.replace(old, new)).argument == argument
 
 
 @pytest.mark.parametrize(

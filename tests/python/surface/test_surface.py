@@ -1,14 +1,22 @@
-"""Height maps: what they take, their statistics, filling, detrending, peaks."""
+"""Maps and line scans: what they take, their statistics, filling, detrending, peaks."""
 
 import numpy as np
 import pytest
 
-from asperity import HeightMap, InvalidInput
+from asperity import HeightMap, InvalidInput, LineScan
 
 RNG = np.random.default_rng(7)
 PIXEL = (2e-6, 5e-6)
 ROUGH = RNG.normal(size=(23, 37)) * 1e-6
+PROFILE = RNG.gumbel(size=301) * 1e-6 + 4e-6
 EPS = np.finfo(float).eps
+
+
+def surface_of(heights):
+    """A map or a line scan, by the axes of the heights."""
+    if np.ndim(heights) == 2:
+        return HeightMap(heights, pixel_size=PIXEL)
+    return LineScan(heights, spacing=PIXEL[1])
 
 
 def grid(shape):
@@ -39,6 +47,13 @@ LAYOUTS = {
     "broadcast": np.broadcast_to(ROUGH[0], (5, 37)),
     "field of records": np.rec.fromarrays([ROUGH, ROUGH > 0])["f0"],
     "unaligned": np.frombuffer(b"\0" + ROUGH.tobytes(), offset=1).reshape(ROUGH.shape),
+    "line": PROFILE,
+    "line, float32": PROFILE.astype("f4"),
+    "line, big-endian": PROFILE.astype(">f8"),
+    "line, list": PROFILE.tolist(),
+    "line, backwards": PROFILE[::-1],
+    "line, every third float32": PROFILE.astype("f4")[::3],
+    "line, column": np.tile(PROFILE[:, None], (1, 4))[:, 2],
 }
 
 
@@ -46,10 +61,11 @@ LAYOUTS = {
 def test_any_real_dtype_and_layout_is_read_as_it_stands(name):
     given = LAYOUTS[name]
     expected = np.asarray(given, dtype=float)
-    result = HeightMap(given, pixel_size=PIXEL)
+    result = surface_of(given)
     assert result.heights.shape == expected.shape
     np.testing.assert_array_equal(result.heights, expected)
-    assert result.rms_height == pytest.approx(expected.std(), rel=1e-13, abs=0)
+    rounding = 1e-6 if name.startswith("line") and "32" in name else 1e-12
+    assert result.rms_height == pytest.approx(expected.std(), rel=rounding, abs=0)
     assert result.detrend("plane").rms_height <= result.rms_height
 
 
@@ -84,14 +100,16 @@ def test_masked_points_are_dropouts(dtype):
     np.testing.assert_array_equal(surface.heights[~mask], values[~mask].astype(float))
 
 
-def test_heights_are_a_view_that_nobody_can_write_to():
-    mine = ROUGH.copy()
-    mine.flags.writeable = False
-    surface = HeightMap(mine, pixel_size=PIXEL)
-    assert np.shares_memory(surface.heights, mine)
-    assert not surface.heights.flags.writeable
+@pytest.mark.parametrize(
+    "mine",
+    [ROUGH, PROFILE, PROFILE.astype("f4")[::3], PROFILE[::-1], np.frombuffer(PROFILE.tobytes())],
+)
+def test_heights_are_a_view_that_nobody_can_write_to(mine):
+    heights = surface_of(mine).heights
+    assert np.shares_memory(heights, mine)
+    assert heights.dtype == mine.dtype
     with pytest.raises(ValueError, match="read-only"):
-        surface.heights[0, 0] = 1
+        heights[0] = 1
 
 
 def test_heights_outlive_the_map_and_the_array():
@@ -108,9 +126,10 @@ def test_pixel_size_is_one_number_or_dy_dx(pixel_size):
 
 @pytest.mark.parametrize("offset", [0.0, 1.0])
 @pytest.mark.parametrize("holes", [0, 0.3])
-def test_statistics_are_those_of_the_measured_points(offset, holes):
-    heights = np.where(RNG.random((60, 41)) < holes, np.nan, RNG.gumbel(size=(60, 41))) * 1e-6
-    surface = HeightMap(heights + offset, pixel_size=PIXEL)
+@pytest.mark.parametrize("shape", [(60, 41), (301,)])
+def test_statistics_are_those_of_the_measured_points(shape, offset, holes):
+    heights = np.where(RNG.random(shape) < holes, np.nan, RNG.gumbel(size=shape)) * 1e-6
+    surface = surface_of(heights + offset)
     z = heights[~np.isnan(heights)] - np.nanmean(heights)
     tolerance = 1e-12 + 20 * EPS * offset / z.std()
     assert surface.rms_height == pytest.approx(z.std(), rel=tolerance, abs=0)
@@ -119,6 +138,23 @@ def test_statistics_are_those_of_the_measured_points(offset, holes):
     assert surface.z_max == pytest.approx(z.max(), rel=tolerance, abs=0)
     assert surface.z_min == pytest.approx(z.min(), rel=tolerance, abs=0)
     assert surface.dropout_fraction == np.isnan(heights).mean()
+
+
+@pytest.mark.parametrize("bins", [1, 7, 100])
+@pytest.mark.parametrize("heights", [PROFILE, PROFILE.reshape(7, 43)])
+def test_the_histogram_is_numpys(heights, bins):
+    edges, density = surface_of(heights).height_histogram(bins=bins)
+    z = heights - heights.mean()
+    expected, expected_edges = np.histogram(z, bins=bins, density=True)
+    np.testing.assert_allclose(edges, expected_edges, rtol=1e-10, atol=1e-12 * np.ptp(z))
+    np.testing.assert_allclose(density, expected, rtol=1e-10)
+
+
+def test_rms_slope_of_a_line_is_that_of_central_differences():
+    heights = np.where(RNG.random(PROFILE.size) < 0.3, np.nan, PROFILE)
+    slope = (heights[2:] - heights[:-2]) / (2 * PIXEL[1])
+    expected = np.sqrt(np.nanmean(slope**2))
+    assert surface_of(heights).rms_slope == pytest.approx(expected, rel=1e-12)
 
 
 def test_rms_slope_is_that_of_central_differences():
@@ -176,6 +212,34 @@ def test_detrend_takes_out_exactly_its_own_shape(order, gaps):
     np.testing.assert_allclose(result, shape + rough - matrix @ fit, atol=1e-12)
 
 
+@pytest.mark.parametrize("gaps", [False, True])
+@pytest.mark.parametrize(("order", "degree"), [("offset", 0), ("plane", 1), ("quadratic", 2)])
+def test_detrend_takes_a_polynomial_out_of_a_line(order, degree, gaps):
+    u = np.linspace(-1, 1, PROFILE.size)
+    heights = PROFILE + 1e-6 * (3 - 7 * u + 5 * u**2)
+    heights[RNG.random(PROFILE.size) < 0.08 * gaps] = np.nan
+    known = ~np.isnan(heights)
+    line = np.polyval(np.polyfit(u[known], heights[known], degree), u)
+    result = surface_of(heights).detrend(order)
+    assert isinstance(result, LineScan)
+    np.testing.assert_allclose(result.heights, heights - line, atol=1e-18)
+
+
+def test_a_line_is_filled_linearly_and_by_the_nearest_beyond_its_ends():
+    heights = PROFILE.copy()
+    heights[[0, 1, 5, 40, 41, 42, 100, 300]] = np.nan
+    known, at = ~np.isnan(heights), np.arange(PROFILE.size)
+    filled = surface_of(heights).fill_dropouts().heights
+    np.testing.assert_array_equal(filled[known], heights[known])
+    np.testing.assert_allclose(filled, np.interp(at, at[known], heights[known]), rtol=1e-13)
+
+
+def test_an_affine_shift_keeps_the_highest_point():
+    z = PROFILE - PROFILE.mean()
+    expected = (z - z.max()) / 2.5 + z.max()
+    np.testing.assert_allclose(surface_of(PROFILE).affine_shift(2.5).heights, expected, atol=1e-18)
+
+
 def test_an_offset_of_a_million_rms_heights_costs_no_more_than_its_own_rounding():
     offset = 1e6 * ROUGH.std()
     near = HeightMap(ROUGH, pixel_size=PIXEL).detrend("quadratic").heights
@@ -184,9 +248,11 @@ def test_an_offset_of_a_million_rms_heights_costs_no_more_than_its_own_rounding(
 
 
 def greedy(z, pixel, min_distance, periodic):
-    """Eq. 13's peaks the plain way: all maxima, from the highest down."""
+    """Eq. 13's peaks the plain way: all maxima, from the highest down, of a map or a line."""
     ny, nx = z.shape
-    around = np.pad(z, 1, mode="wrap") if periodic else np.pad(z, 1, constant_values=np.inf)
+    edge = {"mode": "wrap"} if periodic else {"constant_values": np.inf}
+    around = np.pad(z, ((0, 0), (1, 1)), **edge)
+    around = np.pad(around, ((1, 1), (0, 0)), **({"constant_values": -np.inf} if ny == 1 else edge))
     maxima = np.ones_like(z, bool)
     for dy in (0, 1, 2):
         for dx in (0, 1, 2):
@@ -207,13 +273,11 @@ def greedy(z, pixel, min_distance, periodic):
 
 @pytest.mark.parametrize("periodic", [False, True])
 @pytest.mark.parametrize("min_distance", [1e-9, 7.1e-6, 1.31e-5, 4.03e-5, 1e-3])  # no ties
-@pytest.mark.parametrize("shape", [(40, 41), (12, 90), (3, 3)])
+@pytest.mark.parametrize("shape", [(40, 41), (12, 90), (3, 3), (301,)])
 def test_peaks_are_those_of_the_plain_greedy_search(shape, min_distance, periodic):
     z = RNG.normal(size=shape) + 0.5
-    result = HeightMap(z, pixel_size=PIXEL).local_peaks(
-        min_distance=min_distance, periodic=periodic
-    )
-    expected = greedy(z, PIXEL, min_distance, periodic)
+    result = surface_of(z).local_peaks(min_distance=min_distance, periodic=periodic)
+    expected = greedy(np.atleast_2d(z), PIXEL, min_distance, periodic)
     assert len(result) == len(expected)
     np.testing.assert_allclose(result, expected, rtol=1e-12, atol=1e-15)
 
