@@ -16,6 +16,7 @@ from asperity import (
 from helpers import table_rows
 from helpers.cases import case
 from helpers.ridges import RUBBER, C, Q, ridges, rows
+from helpers.rubbers import curve_of
 
 PAYNE = StrainFactors(strain=[0.01, 0.1, 0.5], storage=[0.8, 0.5, 0.3], loss=[1.2, 0.8, 0.4])
 HEAT = {
@@ -27,9 +28,7 @@ HEAT = {
 }
 EXTRAS = {"plain": {}, "strain": {"strain_factors": PAYNE}, "hot": {**HEAT, "rtol": 1e-5}}
 W = np.geomspace(1e-3, 1e12, 90)
-CURVE = MasterCurve(
-    angular_frequency=W, storage_modulus=RUBBER.modulus(W).real, loss_modulus=RUBBER.modulus(W).imag
-)
+CURVE = curve_of(W, RUBBER.modulus(W))
 AT = {"pressure": 2e5, "velocity": 0.3, "direction": 0.6}
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.rubbers import prony
+from helpers.rubbers import curve_of, prony
 
 LENGTH = 0.01
 ROAD = asperity.SelfAffineSpectrum(
@@ -122,9 +122,7 @@ def test_a_scan_that_is_short_for_its_longest_wave_says_how_many_it_holds() -> N
 def test_a_rubber_that_ends_within_the_band_is_refused_in_one_line() -> None:
     known = np.geomspace(1e3, 2e3, 12)  # a third of a decade: the band has 0.6
     modulus = RUBBER.modulus(known)
-    curve = asperity.MasterCurve(
-        angular_frequency=known, storage_modulus=modulus.real, loss_modulus=modulus.imag
-    )
+    curve = curve_of(known, modulus)
     exact = scan()
     for velocity in (0.1, 1.0, 1e3):
         with pytest.raises(asperity.OutOfRange) as caught:

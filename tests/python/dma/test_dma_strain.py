@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from asperity import InvalidInput, MasterCurve, OutOfRange, ShiftFactors, StrainSweep
+from asperity import InvalidInput, OutOfRange, ShiftFactors, StrainSweep
 from helpers.refusals import refused
-from helpers.rubbers import T_REF, TEMPERATURES, built, sweeps, true_modulus, true_shift
+from helpers.rubbers import T_REF, TEMPERATURES, built, curve_of, sweeps, true_modulus, true_shift
 
 SHIFTS = ShiftFactors(
     reference_temperature=T_REF, temperature=TEMPERATURES, log10_a_T=true_shift(TEMPERATURES)
@@ -48,12 +48,7 @@ def strain_sweeps(law, temperatures=TEMPERATURES, strains=STRAINS):
 
 def small_strain(grid=GRID, shifts=SHIFTS):
     modulus = true_modulus(grid)
-    return MasterCurve(
-        angular_frequency=grid,
-        storage_modulus=modulus.real,
-        loss_modulus=modulus.imag,
-        shift_factors=shifts,
-    )
+    return curve_of(grid, modulus, shift_factors=shifts)
 
 
 @pytest.mark.parametrize("strain", [1e-3, 0.005, 0.02, 0.5, 1.0])

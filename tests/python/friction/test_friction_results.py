@@ -7,7 +7,7 @@ import pytest
 
 import asperity
 from asperity import GreenwoodWilliamson, MasterCurve, OutOfRange, PronySeries, SelfAffineSpectrum
-from helpers.rubbers import prony
+from helpers.rubbers import curve_of, prony
 
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)  # rms slope below 1.3
 STEEP = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=1e6)
@@ -18,12 +18,7 @@ SCENE = {"pressure": 2e5, "velocity": 0.005}
 def master_curve(low, high, extrapolation=None):
     w = np.geomspace(low, high, 300)
     e = RUBBER.modulus(w)
-    return MasterCurve(
-        angular_frequency=w,
-        storage_modulus=e.real,
-        loss_modulus=e.imag,
-        extrapolation=extrapolation,
-    )
+    return curve_of(w, e, extrapolation=extrapolation)
 
 
 def elastic(modulus):

@@ -11,7 +11,6 @@ from asperity import (
     AffineShift,
     GreenwoodWilliamson,
     LocalPeaks,
-    MasterCurve,
     NayakSFactor,
     PartialContact,
     PeaksThenGreenwoodWilliamson,
@@ -19,6 +18,7 @@ from asperity import (
     SelfAffineSpectrum,
     SFactor,
 )
+from helpers.rubbers import curve_of
 
 ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)  # rms slope below 1.3
 MODES = {
@@ -36,12 +36,7 @@ PROFILE = {"z_max": 9e-4, "z_min": -8e-4}
 def master_curve(rubber=RUBBER, low=1e-3, high=1e8, rows=300, extrapolation=None):
     w = np.geomspace(low, high, rows)
     e = rubber.modulus(w)
-    return MasterCurve(
-        angular_frequency=w,
-        storage_modulus=e.real,
-        loss_modulus=e.imag,
-        extrapolation=extrapolation,
-    )
+    return curve_of(w, e, extrapolation=extrapolation)
 
 
 ALL = [

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.rubbers import prony
+from helpers.rubbers import curve_of, prony
 
 
 def with_changes(made, **more):
@@ -29,11 +29,7 @@ GROUND = asperity.TabulatedSpectrum(
 )
 SERIES = prony(3e6, np.geomspace(1e6, 3e8, 9), np.geomspace(1e-2, 1e-9, 9))
 W = np.geomspace(1e-5, 1e11, 60)
-MEASURED = asperity.MasterCurve(
-    angular_frequency=W,
-    storage_modulus=SERIES.modulus(W).real,
-    loss_modulus=SERIES.modulus(W).imag,
-)
+MEASURED = curve_of(W, SERIES.modulus(W))
 STRAIN = asperity.StrainFactors(
     strain=[0.001, 0.01, 0.1, 0.3, 0.6],
     storage=[0.95, 0.75, 0.45, 0.34, 0.3],

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.rubbers import prony
+from helpers.rubbers import curve_of, prony
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=2e3)
 RUBBER = prony(1e6, np.geomspace(1e6, 1e8, 8), 10.0 ** -np.arange(8))
@@ -14,11 +14,7 @@ RINGS = 1e3 * np.arange(1, 101)
 SCATTER = 1 + 0.3 * np.random.default_rng(1).uniform(-1, 1, 100)
 SCAN = asperity.TabulatedSpectrum(wavenumber=RINGS, density=1e-12 * (RINGS / 1e3) ** -3.6 * SCATTER)
 FREQUENCY = np.geomspace(1e-4, 1e8, 60)
-MEASURED = asperity.MasterCurve(
-    angular_frequency=FREQUENCY,
-    storage_modulus=RUBBER.modulus(FREQUENCY).real,
-    loss_modulus=RUBBER.modulus(FREQUENCY).imag,
-)
+MEASURED = curve_of(FREQUENCY, RUBBER.modulus(FREQUENCY))
 TABLE = {"wavenumber": [1e3, 1e5], "density": [1e-12, 1e-20], "standard_error": [1e-13, 1e-21]}
 VELOCITY = np.random.default_rng(2).permutation(np.geomspace(1e-5, 10, 1001))
 PEAKS = asperity.GreenwoodWilliamson(z_max=4e-4, z_min=-4e-4, rms_height=1e-4, q0=1e3)

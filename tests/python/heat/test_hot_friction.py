@@ -11,6 +11,7 @@ from helpers.cases import case
 from helpers.examples import TREAD
 from helpers.heat import ASPHALT, CUT, LAW, STICKY, hot, rubber
 from helpers.refusals import refused
+from helpers.rubbers import curve_of
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import random_heat
@@ -361,9 +362,7 @@ def test_measured_inputs_are_heated_too():
         assert (np.abs(found.mu - truth.mu) <= found.error_estimate).all()
     w = np.geomspace(1e-3, 1e12, 140)
     modulus = rubber().modulus(w)
-    curve = asperity.MasterCurve(
-        angular_frequency=w, storage_modulus=modulus.real, loss_modulus=modulus.imag
-    )
+    curve = curve_of(w, modulus)
     found, truth = (hot(velocity=v, rubber=curve, rtol=rtol) for rtol in (1e-5, 1e-8))
     assert (np.abs(found.mu - truth.mu) <= found.error_estimate).all()
     np.testing.assert_allclose(found.mu, law.mu, rtol=2e-5)  # Steffen at nine rows a decade

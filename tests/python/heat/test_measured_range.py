@@ -8,6 +8,7 @@ import pytest
 
 import asperity
 from helpers.heat import CUT, hot, rubber
+from helpers.rubbers import curve_of
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import random_heat
@@ -16,9 +17,7 @@ import random_heat
 def measured(lowest, highest):
     w = np.geomspace(lowest, highest, 140)
     modulus = rubber().modulus(w)
-    return asperity.MasterCurve(
-        angular_frequency=w, storage_modulus=modulus.real, loss_modulus=modulus.imag
-    )
+    return curve_of(w, modulus)
 
 
 def test_heat_takes_the_rubber_out_at_the_low_end():

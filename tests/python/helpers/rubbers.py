@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from asperity import Isotherm, PronySeries, build_master_curve
+from asperity import Isotherm, MasterCurve, PronySeries, build_master_curve
 
 T_REF = 293.15
 TEMPERATURES = np.arange(-30, 78, 5) + 273.15  # 22
@@ -13,6 +13,12 @@ def prony(equilibrium_modulus, moduli, relaxation_times):
     return PronySeries(
         equilibrium_modulus=equilibrium_modulus, moduli=moduli, relaxation_times=relaxation_times
     )
+
+
+def curve_of(angular_frequency, modulus, **more):
+    """The master curve of complex moduli."""
+    rows = {"storage_modulus": modulus.real, "loss_modulus": modulus.imag}
+    return MasterCurve(angular_frequency=angular_frequency, **rows, **more)
 
 
 def true_modulus(w):

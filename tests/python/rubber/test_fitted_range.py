@@ -9,7 +9,7 @@ from scipy.integrate import quad
 
 import asperity
 from asperity import OutOfRange, SelfAffineSpectrum
-from helpers.rubbers import prony
+from helpers.rubbers import curve_of, prony
 
 ROAD = SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5)
 TRUE = prony(1e6, [3e6, 1e7, 4e7, 2e8, 5e8], [1e-1, 1e-2, 1e-3, 1e-4, 1e-5])
@@ -19,9 +19,7 @@ SHARE = "the Prony series is asked beyond the frequencies that it was fitted on"
 def fitted(low=10.0, high=1e4, extrapolation=None):
     w = np.geomspace(low, high, 40)
     modulus = TRUE.modulus(w)
-    curve = asperity.MasterCurve(
-        angular_frequency=w, storage_modulus=modulus.real, loss_modulus=modulus.imag
-    )
+    curve = curve_of(w, modulus)
     return asperity.fit_prony(curve, extrapolation=extrapolation)
 
 

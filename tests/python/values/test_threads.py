@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.rubbers import prony
+from helpers.rubbers import curve_of, prony
 
 THREADS = 80
 SURFACE = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=1e5)
@@ -21,9 +21,7 @@ def master_curve():
     """A new one each time: its angular integrals are worked out when first asked for."""
     w = np.geomspace(1e-3, 1e7, 40)
     modulus = PRONY.modulus(w)
-    return asperity.MasterCurve(
-        angular_frequency=w, storage_modulus=modulus.real, loss_modulus=modulus.imag
-    )
+    return curve_of(w, modulus)
 
 
 def mu(rubber, **more):
