@@ -6,7 +6,6 @@ import os
 import subprocess
 import sys
 from contextlib import nullcontext
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,14 +21,14 @@ FRICTION = (
 )
 
 
-def rows_of(text: str) -> tuple[list[str], list[dict[str, str]]]:
+def rows_of(text):
     """Comment lines and rows of a CSV text."""
     lines = text.splitlines()
     comments = [line for line in lines if line.startswith("#")]
     return comments, list(csv.DictReader(lines[len(comments) :]))
 
 
-def expected() -> asperity.Friction:
+def expected():
     return asperity.friction(
         asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5),
         prony(2e6, [1e9, 1e8, 1e7], [1e-8, 1e-6, 1e-4]),
@@ -39,9 +38,7 @@ def expected() -> asperity.Friction:
     )
 
 
-def test_friction_table_is_the_cores_to_the_last_digit(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_friction_table_is_the_cores_to_the_last_digit(folder, capsys):
     assert main(["friction", "scene.toml", "--notes", "all"]) == 0
     out, err = capsys.readouterr()
     comments, rows = rows_of(out)
@@ -63,9 +60,7 @@ def test_friction_table_is_the_cores_to_the_last_digit(
     assert step.startswith("next: ")
 
 
-def test_several_scenes_stand_under_one_another(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_several_scenes_stand_under_one_another(folder, capsys):
     (folder / "half.toml").write_text(SCENE.replace("hurst = 0.7", "hurst = 0.5"))
     assert main(["friction", "scene.toml", "half.toml", "--plot", "mu.png"]) == 0
     comments, rows = rows_of(capsys.readouterr().out)
@@ -76,7 +71,7 @@ def test_several_scenes_stand_under_one_another(
     assert (folder / "mu.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_json_has_the_same_content(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_json_has_the_same_content(folder, capsys):
     assert main(["friction", "scene.toml", "--json", "--output", "mu.json"]) == 0
     assert capsys.readouterr().out == ""
     content = json.loads((folder / "mu.json").read_text())
@@ -88,7 +83,7 @@ def test_json_has_the_same_content(folder: Path, capsys: pytest.CaptureFixture[s
     assert content["notes"] == list(result.notes)
 
 
-def test_area_over_wavenumber(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_area_over_wavenumber(folder, capsys):
     assert main(["area", "scene.toml", "--points", "7"]) == 0
     comments, rows = rows_of(capsys.readouterr().out)
     assert list(rows[0]) == ["pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area"]
@@ -100,7 +95,7 @@ def test_area_over_wavenumber(folder: Path, capsys: pytest.CaptureFixture[str]) 
     np.testing.assert_allclose(area[..., -1], expected().contact_area, rtol=1e-5)
 
 
-def test_spectrum_and_what_it_prints(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_spectrum_and_what_it_prints(folder, capsys):
     arguments = ["spectrum", "scan.npy", "--pixel-size", "2e-5,1e-5", "--unit", "m"]
     assert main([*arguments, "--window", "none", "--q-min", "2.5e4", "--q-max", "1.5e5"]) == 0
     out, err = capsys.readouterr()
@@ -122,13 +117,11 @@ def test_spectrum_and_what_it_prints(folder: Path, capsys: pytest.CaptureFixture
 
 
 @pytest.mark.parametrize("verb", ["friction", "area"])
-def test_bar_only_on_a_terminal(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, verb: str
-) -> None:
+def test_bar_only_on_a_terminal(folder, capsys, monkeypatch, verb):
     tqdm = pytest.importorskip("tqdm")
     bars: list[object] = []
 
-    def bar(chunks: list[object], **settings: object) -> nullcontext[list[object]]:
+    def bar(chunks, **settings):
         bars.append((settings["delay"], len(chunks)))
         return nullcontext(chunks)
 
@@ -153,9 +146,7 @@ FLAT, NOISE = np.zeros((20, 30)), np.random.default_rng(1).normal(size=(64, 64))
         (NOISE, ["--q-min", "1e9"]),
     ],
 )
-def test_spectrum_without_a_fit(
-    folder: Path, capsys: pytest.CaptureFixture[str], heights: np.ndarray, arguments: list[str]
-) -> None:
+def test_spectrum_without_a_fit(folder, capsys, heights, arguments):
     np.save("scan.npy", heights)
     arguments = [*arguments, "--pixel-size", "1e-6", "--unit", "um"]
     assert main(["spectrum", "scan.npy", *arguments]) == 0
@@ -168,7 +159,7 @@ def test_spectrum_without_a_fit(
 
 
 @pytest.mark.parametrize("form", [[], ["--json"]])
-def test_names_that_the_terminal_cannot_show(folder: Path, form: list[str]) -> None:
+def test_names_that_the_terminal_cannot_show(folder, form):
     (folder / "größe日.toml").write_text(SCENE)
     done = subprocess.run(
         [sys.executable, "-m", "asperity", "friction", "größe日.toml", *form],
@@ -184,7 +175,7 @@ def test_names_that_the_terminal_cannot_show(folder: Path, form: list[str]) -> N
     assert name == "größe日.toml"
 
 
-def test_numbers_have_the_shortest_digits_that_read_back() -> None:
+def test_numbers_have_the_shortest_digits_that_read_back():
     values = [0.1, 81e3, 1e-6, 1 / 3, 5e-324, 1.7976931348623157e308, 0.1 + 0.2]
     text = Table("t", [], [], {"x": values}).csv().splitlines()
     cells = text[text.index("x") + 1 :]
@@ -192,7 +183,7 @@ def test_numbers_have_the_shortest_digits_that_read_back() -> None:
     assert [float(cell) for cell in cells] == values
 
 
-def test_infinite_numbers_survive_both_forms() -> None:
+def test_infinite_numbers_survive_both_forms():
     table = Table(
         "friction", [{}], [], {"shift_factor": [np.float64(np.inf), 1.5], "count": [3, 4]}
     )

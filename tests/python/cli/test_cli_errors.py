@@ -3,7 +3,6 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +14,7 @@ from asperity.io.files import write_files
 from helpers.scenes import SCENE
 
 
-def names(folder: Path) -> list[str]:
+def names(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
@@ -46,9 +45,7 @@ FRICTION = ["friction", "scene.toml"]
         (["spectrum", "holes.npy", *SPECTRUM[2:]], "holes.npy: "),
     ],
 )
-def test_bad_input_is_one_line_and_leaves_no_file(
-    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], message: str
-) -> None:
+def test_bad_input_is_one_line_and_leaves_no_file(folder, capsys, arguments, message):
     holes = np.ones((20, 20))
     holes[:, :3] = np.nan
     np.save(folder / "holes.npy", holes)
@@ -76,9 +73,7 @@ def test_bad_input_is_one_line_and_leaves_no_file(
         ([*SPECTRUM, "--window", "boxcar"], "--window: invalid choice: 'boxcar'"),
     ],
 )
-def test_bad_usage_is_one_line(
-    folder: Path, capsys: pytest.CaptureFixture[str], arguments: list[str], named: str
-) -> None:
+def test_bad_usage_is_one_line(folder, capsys, arguments, named):
     with pytest.raises(SystemExit) as caught:
         main(arguments)
     assert caught.value.code == 2
@@ -107,13 +102,7 @@ DMA += ["--units", "frequency=Hz,temperature=K,modulus=Pa"]
     ],
 )
 @pytest.mark.parametrize("name", ["pipe", "/dev/zero", "loop"])
-def test_what_has_no_end_is_refused_and_not_waited_for(
-    folder: Path,
-    capsys: pytest.CaptureFixture[str],
-    undrawn: None,
-    arguments: list[str],
-    name: str,
-) -> None:
+def test_what_has_no_end_is_refused_and_not_waited_for(folder, capsys, undrawn, arguments, name):
     if not (folder / "pipe").exists():
         os.mkfifo(folder / "pipe")
     if not (folder / "loop").is_symlink():
@@ -126,9 +115,7 @@ def test_what_has_no_end_is_refused_and_not_waited_for(
     assert (out, err) == ("", f"asperity: {name}: {problem}\n")
 
 
-def test_an_error_in_a_later_scene_keeps_the_old_output(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_error_in_a_later_scene_keeps_the_old_output(folder, capsys):
     (folder / "bad.toml").write_text(SCENE.replace("[81e3, 2e5]", "-1"))
     (folder / "mu.csv").write_text("of yesterday")
     arguments = ["friction", "scene.toml", "bad.toml", "--output", "mu.csv", "--plot", "mu.png"]
@@ -139,10 +126,8 @@ def test_an_error_in_a_later_scene_keeps_the_old_output(
     assert not (folder / "mu.png").exists()
 
 
-def test_not_converged_is_no_bad_input(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(*_: object, **__: object) -> None:
+def test_not_converged_is_no_bad_input(folder, capsys, monkeypatch):
+    def fail(*_, **__):
         rtol = Argument("rtol")
         raise asperity.NotConverged("mu = 1 with error 2,\nwhere ", rtol, " = 1e-6 was asked for")
 
@@ -153,10 +138,8 @@ def test_not_converged_is_no_bad_input(
     assert not (folder / "mu.csv").exists()
 
 
-def test_failing_disk_leaves_nothing(
-    folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def full(_: int) -> None:
+def test_failing_disk_leaves_nothing(folder, capsys, monkeypatch):
+    def full(_):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("os.fsync", full)
@@ -167,7 +150,7 @@ def test_failing_disk_leaves_nothing(
     assert names(folder) == before
 
 
-def test_no_name_for_the_parts_is_known_beforehand(tmp_path: Path) -> None:
+def test_no_name_for_the_parts_is_known_beforehand(tmp_path):
     """Another process with the same number, or a planted link, takes nobody's place."""
     planted = tmp_path / "planted"
     planted.write_bytes(b"mine")
@@ -187,15 +170,8 @@ def test_no_name_for_the_parts_is_known_beforehand(tmp_path: Path) -> None:
         (KeyboardInterrupt(), 130, "interrupted"),
     ],
 )
-def test_what_stops_the_work_is_one_line(
-    folder: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-    failure: BaseException,
-    status: int,
-    line: str,
-) -> None:
-    def stop(*_: object, **__: object) -> None:
+def test_what_stops_the_work_is_one_line(folder, capsys, monkeypatch, failure, status, line):
+    def stop(*_, **__):
         raise failure
 
     monkeypatch.setattr("asperity.scene.model.friction", stop)
@@ -232,7 +208,7 @@ sys.exit(status if sum(begun) < 200_000 else "it went on to the end")
 """
 
 
-def test_interrupt_ends_a_long_computation(folder: Path) -> None:
+def test_interrupt_ends_a_long_computation(folder):
     (folder / "long.toml").write_text(SCENE.replace("points = 5", "points = 100000"))
     before = names(folder)
     done = subprocess.run(

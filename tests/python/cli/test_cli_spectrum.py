@@ -1,8 +1,5 @@
 """`asperity spectrum`: line scans, directions, drop-outs, what is flagged."""
 
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -19,7 +16,7 @@ LONG = asperity.synthesize(SURFACE, shape=(SIDE, 4096), pixel_size=PIXEL, seed=3
 READ = ["--pixel-size", str(PIXEL), "--unit", "m"]
 
 
-def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[dict[str, float], str]:
+def run(capsys, *arguments):
     """What was found, and all that was said."""
     assert main(["spectrum", *arguments]) == 0
     said = capsys.readouterr().err
@@ -27,9 +24,7 @@ def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[dict[str, 
     return {name: float(value) for name, value in pairs if name.isidentifier()}, said
 
 
-def test_a_map_is_fitted_where_it_is_reliable(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_map_is_fitted_where_it_is_reliable(folder, capsys):
     np.save("map.npy", SCAN.heights)
     result, said = run(capsys, "map.npy", *READ)
     assert result["reliable_from_per_m"] == pytest.approx(16 * 2 * np.pi / (SIDE * PIXEL), rel=0.03)
@@ -40,7 +35,7 @@ def test_a_map_is_fitted_where_it_is_reliable(
     assert "lay" not in said
 
 
-def test_a_slope_fit_is_eq_28_alone(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_slope_fit_is_eq_28_alone(folder, capsys):
     np.save("map.npy", SCAN.heights)
     result, _ = run(capsys, "map.npy", *READ, "--method", "slope")
     spectrum = asperity.power_spectrum(asperity.HeightMap(SCAN.heights, pixel_size=PIXEL))
@@ -50,7 +45,7 @@ def test_a_slope_fit_is_eq_28_alone(folder: Path, capsys: pytest.CaptureFixture[
     assert result["fit_hurst"] == pytest.approx(-slope / 2 - 1, abs=1e-5)
 
 
-def test_a_lay_is_said(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_lay_is_said(folder, capsys):
     np.save("map.npy", SCAN.heights)
     result, said = run(capsys, "map.npy", "--pixel-size", f"{3 * PIXEL},{PIXEL}", "--unit", "m")
     assert result["slope_anisotropy"] > 2
@@ -58,9 +53,7 @@ def test_a_lay_is_said(folder: Path, capsys: pytest.CaptureFixture[str]) -> None
     assert "note: the slope across the lay is" in said
 
 
-def test_a_line_scan_gives_the_surface_behind_it(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_line_scan_gives_the_surface_behind_it(folder, capsys):
     np.save("line.npy", LONG)
     arguments = ["line.npy", *READ, "--output", "line.csv"]
     _, said = run(capsys, *arguments)
@@ -73,9 +66,7 @@ def test_a_line_scan_gives_the_surface_behind_it(
 
 
 @pytest.mark.parametrize(("limit", "code"), [("0.1", 2), ("0.3", 0)])
-def test_the_limit_of_dropouts_is_the_users(
-    folder: Path, capsys: pytest.CaptureFixture[str], limit: str, code: int
-) -> None:
+def test_the_limit_of_dropouts_is_the_users(folder, capsys, limit, code):
     holed = np.where(
         np.random.default_rng(1).random(SCAN.heights.shape) < 0.2, np.nan, SCAN.heights
     )
@@ -85,7 +76,7 @@ def test_the_limit_of_dropouts_is_the_users(
     assert ("must be at most 10 %, --max-dropouts = 0.1" in said) == (code == 2)
 
 
-def test_friction_says_where_its_spectrum_is_uncertain(folder: Path) -> None:
+def test_friction_says_where_its_spectrum_is_uncertain(folder):
     spectrum = asperity.power_spectrum(SCAN).truncated(q1=np.pi / PIXEL)
     rubber = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])
     notes = asperity.friction(spectrum, rubber, pressure=1e5, velocity=1e-3).notes
@@ -100,9 +91,7 @@ def test_friction_says_where_its_spectrum_is_uncertain(folder: Path) -> None:
 @pytest.mark.parametrize("hurst", [0.3, 1.0])
 @pytest.mark.parametrize("rolloff", [None, 8])
 @pytest.mark.parametrize("finer", [1, 4])
-def test_noise_is_seen_where_it_is_and_nowhere_else(
-    hurst: float, rolloff: int | None, finer: int
-) -> None:
+def test_noise_is_seen_where_it_is_and_nowhere_else(hurst, rolloff, finer):
     """Maps of rings up to pi / pixel, and points of four times finer ones, which fold back."""
     end, first = np.pi / PIXEL, 2 * np.pi / (SIDE * PIXEL)
     road = asperity.SelfAffineSpectrum(
@@ -125,13 +114,11 @@ def test_noise_is_seen_where_it_is_and_nowhere_else(
         assert noise_floor(measured(noisy)) == pytest.approx(crossing, rel=0.2)
 
 
-def measured(heights: Any) -> asperity.TabulatedSpectrum:
+def measured(heights):
     return asperity.power_spectrum(asperity.HeightMap(heights, pixel_size=PIXEL))
 
 
-def test_noise_is_told_and_whether_the_scan_serves(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_noise_is_told_and_whether_the_scan_serves(folder, capsys):
     heights = SCAN.heights
     noise = 2 * np.pi / PIXEL * np.sqrt(SURFACE.at(0.3 * np.pi / PIXEL))
     noise = noise * np.random.default_rng(1).standard_normal(heights.shape)
@@ -149,9 +136,7 @@ def test_noise_is_told_and_whether_the_scan_serves(
         assert ("only: mu hangs on the rest" in line) == (share < 0.5)
 
 
-def test_a_surface_as_flat_as_no_mirror_is_refused(
-    folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_surface_as_flat_as_no_mirror_is_refused(folder, capsys):
     """As where a file states its micrometres to be metres."""
     np.save("map.npy", SCAN.heights)
     assert main(["spectrum", "map.npy", "--pixel-size", "0.3", "--unit", "m"]) == 2

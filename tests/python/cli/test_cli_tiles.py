@@ -14,15 +14,13 @@ READ = ["--pixel-size", str(PIXEL), "--unit", "um"]
 HEIGHTS = surface(law(0.8, rolloff=1e5), (600, 700), PIXEL, 1, dtype=np.float32) * 1e6
 
 
-def result(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, float]:
+def result(capsys, *arguments):
     assert main(["spectrum", *arguments]) == 0
     pairs = [line.split(" = ") for line in capsys.readouterr().err.splitlines() if " = " in line]
     return {name: float(value) for name, value in pairs if name.isidentifier()}
 
 
-def test_a_file_and_an_array_give_what_python_does(
-    folder: Path, capsys: pytest.CaptureFixture[str], undrawn: None
-) -> None:
+def test_a_file_and_an_array_give_what_python_does(folder, capsys, undrawn):
     zarr = pytest.importorskip("zarr")
     np.save("map.npy", HEIGHTS)
     group = zarr.create_group("scan.zarr")

@@ -4,7 +4,6 @@ import struct
 import subprocess
 import sys
 import zlib
-from pathlib import Path
 
 import pytest
 
@@ -15,7 +14,7 @@ FRICTION = "friction scene.toml"
 SHOWN = ["--version", "friction --help", "map --info road.fmap"]
 
 
-def shell(line: str) -> subprocess.CompletedProcess[str]:
+def shell(line):
     """What a shell makes of `$A ...`, the command."""
     return subprocess.run(
         ["sh", "-c", f'A="{sys.executable} -m asperity"; {line}'],
@@ -26,7 +25,7 @@ def shell(line: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-def saved_map(folder: Path, text: bytes = b"") -> bytes:
+def saved_map(folder, text=b""):
     """A map's file, into which the text is written as it is."""
     spectrum = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
     rubber = PronySeries(equilibrium_modulus=3e6, moduli=[1e9], relaxation_times=[1e-6])
@@ -47,7 +46,7 @@ def saved_map(folder: Path, text: bytes = b"") -> bytes:
         ("--help >&-", "is closed"),
     ],
 )
-def test_a_result_that_cannot_be_shown_is_an_error(folder: Path, line: str, reason: str) -> None:
+def test_a_result_that_cannot_be_shown_is_an_error(folder, line, reason):
     saved_map(folder)
     done = shell(f"$A {line}")
     assert done.returncode == 1
@@ -56,7 +55,7 @@ def test_a_result_that_cannot_be_shown_is_an_error(folder: Path, line: str, reas
     assert "Exception" not in done.stderr
 
 
-def test_notes_may_be_lost_and_the_result_stays(folder: Path) -> None:
+def test_notes_may_be_lost_and_the_result_stays(folder):
     wanted = shell(f"$A {FRICTION}")
     assert wanted.returncode == 0
     assert "note: " in wanted.stderr
@@ -70,14 +69,12 @@ def test_notes_may_be_lost_and_the_result_stays(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("line", ["frictoin 2>&-", "friction none.toml 2>/dev/full"])
-def test_the_exit_status_does_not_need_standard_error(folder: Path, line: str) -> None:
+def test_the_exit_status_does_not_need_standard_error(folder, line):
     done = shell(f"$A {line}")
     assert (done.returncode, done.stdout, done.stderr) == (2, "", "")
 
 
-def test_no_text_of_a_map_is_obeyed_by_a_terminal(
-    folder: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
+def test_no_text_of_a_map_is_obeyed_by_a_terminal(folder, capfd):
     text = b"note: \x1b[2Jgone\r\nfile = \xff\xfe\x9b\x1b]0;title\x07\n\xe2\x80\xae \xc2\xb5"
     content = saved_map(folder, text)
     loaded = FrictionMap.load("road.fmap")
@@ -99,9 +96,7 @@ def test_no_text_of_a_map_is_obeyed_by_a_terminal(
         ("caf\udce9", r"'caf\udce9.toml'"),
     ],
 )
-def test_the_name_of_a_file_stays_in_its_line(
-    folder: Path, capfd: pytest.CaptureFixture[str], name: str, shown: str
-) -> None:
+def test_the_name_of_a_file_stays_in_its_line(folder, capfd, name, shown):
     assert main(["friction", f"{name}.toml"]) == 2
     error = capfd.readouterr().err
     assert error == f"asperity: {shown}: cannot be read: No such file or directory\n"

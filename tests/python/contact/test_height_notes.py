@@ -2,8 +2,6 @@
 
 import pickle
 import re
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -21,7 +19,7 @@ RUBBER = prony(1e6, np.geomspace(3e5, 3e8, 8), np.geomspace(1e-1, 1e-7, 8))
 NOTES = {"heights-not-gaussian", "gathered-waves"}
 
 
-def height_map(shape: str) -> asperity.HeightMap:
+def height_map(shape):
     z = asperity.synthesize(ROAD, shape=(POINTS, POINTS), pixel_size=LENGTH / POINTS, seed=5)
     z = z.heights / z.heights.std()
     made = {
@@ -34,19 +32,19 @@ def height_map(shape: str) -> asperity.HeightMap:
     return asperity.HeightMap(1e-4 * made, pixel_size=LENGTH / POINTS)
 
 
-def short_waves(z: Any) -> Any:
+def short_waves(z):
     q = 2 * np.pi * np.fft.fftfreq(POINTS, LENGTH / POINTS)
     kept = (q**2 + q[:, None] ** 2 > (2 * ROAD.q0) ** 2) & (q**2 + q[:, None] ** 2 < ROAD.q1**2)
     waves = np.fft.ifft2(np.fft.fft2(np.random.default_rng(1).normal(size=z.shape)) * kept).real
     return waves / waves.std()
 
 
-def rings(scan: asperity.HeightMap) -> asperity.TabulatedSpectrum:
+def rings(scan):
     spectrum = asperity.power_spectrum(scan, window="none", detrend=None)
     return spectrum.truncated(q0=ROAD.q0, q1=ROAD.q1)
 
 
-def notes(spectrum: asperity.TabulatedSpectrum, correction: object) -> list[str]:
+def notes(spectrum, correction):
     result = asperity.friction(
         spectrum, RUBBER, pressure=2e5, velocity=0.1, correction=correction, rtol=1e-3
     )
@@ -54,12 +52,12 @@ def notes(spectrum: asperity.TabulatedSpectrum, correction: object) -> list[str]
     return [note for note in result.notes if note.code in NOTES]
 
 
-def of_heights(table: asperity.TabulatedSpectrum | asperity.LineSpectrum) -> list[float]:
+def of_heights(table):
     shape = table.skewness, table.kurtosis, table.curvature_kurtosis
     return [number for number in shape if number is not None]
 
 
-def curvature_kurtosis(z: Any) -> float:
+def curvature_kurtosis(z):
     found = []
     for along in (z, z.T)[: z.ndim]:
         second = along[..., 4:] - 2 * along[..., 2:-2] + along[..., :-4]
@@ -67,11 +65,11 @@ def curvature_kurtosis(z: Any) -> float:
     return max(found)
 
 
-def shape_of(scan: asperity.HeightMap | asperity.LineScan) -> list[float]:
+def shape_of(scan):
     return [scan.skewness, scan.kurtosis, curvature_kurtosis(scan.heights)]
 
 
-def test_a_spectrum_knows_the_heights_that_it_was_measured_on() -> None:
+def test_a_spectrum_knows_the_heights_that_it_was_measured_on():
     scan = height_map("worn")
     tilted = asperity.HeightMap(
         scan.heights + 1e-5 * np.arange(POINTS) + 3.0, pixel_size=LENGTH / POINTS
@@ -97,7 +95,7 @@ def test_a_spectrum_knows_the_heights_that_it_was_measured_on() -> None:
 
 
 @pytest.mark.parametrize("shape", ["worn", "peaks", "gathered"])
-def test_it_is_noted_with_what_exact_contacts_had(shape: str) -> None:
+def test_it_is_noted_with_what_exact_contacts_had(shape):
     scan = height_map(shape)
     table = rings(scan)
     [note] = notes(table, asperity.PartialContact())
@@ -113,7 +111,7 @@ def test_it_is_noted_with_what_exact_contacts_had(shape: str) -> None:
     assert lowest <= exact.hysteresis / said.mu <= highest
 
 
-def test_there_is_no_note_where_nothing_is_to_say() -> None:
+def test_there_is_no_note_where_nothing_is_to_say():
     assert notes(rings(height_map("Gaussian")), asperity.PartialContact()) == []
     worn = height_map("worn")
     table = rings(worn)
@@ -131,7 +129,7 @@ def test_there_is_no_note_where_nothing_is_to_say() -> None:
 
 @pytest.mark.parametrize("fit", ["", 'fit = "self-affine"\n'])
 @pytest.mark.parametrize("kind", ["partial-contact", "scan-contact"])
-def test_a_scene_notes_it(tmp_path: Path, fit: str, kind: str) -> None:
+def test_a_scene_notes_it(tmp_path, fit, kind):
     fine = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=ROAD.q0, q1=5 * ROAD.q1)
     pixel = LENGTH / 256
     rough = asperity.synthesize(fine, shape=(256, 256), pixel_size=pixel, seed=5).heights
@@ -148,7 +146,7 @@ def test_a_scene_notes_it(tmp_path: Path, fit: str, kind: str) -> None:
 
 
 @pytest.mark.parametrize("shape", ["worn", "Gaussian", "peaks"])
-def test_a_scene_says_of_a_worn_line_scan_what_its_tops_have(tmp_path: Path, shape: str) -> None:
+def test_a_scene_says_of_a_worn_line_scan_what_its_tops_have(tmp_path, shape):
     heights = height_map(shape).heights.reshape(-1)
     np.save(tmp_path / "line.npy", heights)
     (tmp_path / "scene.toml").write_text(
@@ -168,7 +166,7 @@ def test_a_scene_says_of_a_worn_line_scan_what_its_tops_have(tmp_path: Path, sha
         assert share < 0.8  # half of the points have all of the slope in a Gaussian map: 1
 
 
-def test_waves_may_be_gathered_along_either_axis() -> None:
+def test_waves_may_be_gathered_along_either_axis():
     rng = np.random.default_rng(2)
     place = np.arange(256) / 256
     grooves = np.sin(2 * np.pi * 40 * place) * np.exp(-(((place - 0.5) / 0.1) ** 2))

@@ -1,7 +1,6 @@
 """Calls that solve contacts of a scan: how far they are, ended on the way, refused, or noted."""
 
 import signal
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,17 +19,17 @@ _OF_CONTACT = 19  # columns up to its points, with the seconds that it took; err
 VELOCITY = np.geomspace(1e-3, 1, 7)
 
 
-def scan() -> asperity.ScanContact:
+def scan():
     return asperity.ScanContact(SCAN, periodic=True)
 
 
-def friction(correction: Any, **more: Any) -> Any:
+def friction(correction, **more):
     scene: dict[str, Any] = {"pressure": 2e5, "velocity": VELOCITY} | more
     return asperity.friction(ROAD, RUBBER, correction=correction, **scene)
 
 
 @pytest.mark.parametrize("threads", [1, 2])
-def test_progress_is_told_after_each_contact(threads: int) -> None:
+def test_progress_is_told_after_each_contact(threads):
     exact, seen = scan(), []
     with exact.progress(lambda solved, needed: seen.append((solved, needed))):
         friction(exact, threads=threads)
@@ -48,7 +47,7 @@ def test_progress_is_told_after_each_contact(threads: int) -> None:
     assert len(seen) == count
 
 
-def test_progress_of_hot_points_and_of_areas() -> None:
+def test_progress_of_hot_points_and_of_areas():
     law = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
     heating = asperity.Heating(
         density=1200.0, heat_capacity=1650.0, conductivity=0.2, contact_diameter=2e-3
@@ -67,7 +66,7 @@ class Enough(Exception):
 
 
 @pytest.fixture
-def interruptible() -> Iterator[None]:
+def interruptible():
     before = signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup starts without one
     yield
     signal.signal(signal.SIGINT, before)
@@ -75,10 +74,10 @@ def interruptible() -> Iterator[None]:
 
 @pytest.mark.usefixtures("interruptible")
 @pytest.mark.parametrize("how", ["Ctrl-C", "an exception"])
-def test_what_was_solved_is_kept_where_a_call_ends(how: str) -> None:
+def test_what_was_solved_is_kept_where_a_call_ends(how):
     exact = scan()
 
-    def tell(solved: int, needed: int) -> None:
+    def tell(solved, needed):
         if solved >= 5 and how == "Ctrl-C":
             signal.raise_signal(signal.SIGINT)
         elif solved >= 5:
@@ -97,14 +96,14 @@ def test_what_was_solved_is_kept_where_a_call_ends(how: str) -> None:
 _whole: list[asperity.ScanContact] = []
 
 
-def wholly_solved() -> asperity.ScanContact:
+def wholly_solved():
     if not _whole:
         _whole.append(scan())
         friction(_whole[0])
     return _whole[0]
 
 
-def test_a_scan_that_is_short_for_its_longest_wave_says_how_many_it_holds() -> None:
+def test_a_scan_that_is_short_for_its_longest_wave_says_how_many_it_holds():
     half = asperity.HeightMap(SCAN.heights[:, :32].copy(), pixel_size=SCAN.pixel_size)
     result = asperity.friction(
         ROAD, RUBBER, pressure=2e5, velocity=0.1, correction=asperity.ScanContact(half)
@@ -119,7 +118,7 @@ def test_a_scan_that_is_short_for_its_longest_wave_says_how_many_it_holds() -> N
     assert "\n" not in str(caught.value)
 
 
-def test_a_rubber_that_ends_within_the_band_is_refused_in_one_line() -> None:
+def test_a_rubber_that_ends_within_the_band_is_refused_in_one_line():
     known = np.geomspace(1e3, 2e3, 12)  # a third of a decade: the band has 0.6
     modulus = RUBBER.modulus(known)
     curve = curve_of(known, modulus)

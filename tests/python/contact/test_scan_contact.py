@@ -2,7 +2,6 @@
 
 import pickle
 from concurrent.futures import ThreadPoolExecutor
-from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +17,7 @@ ROAD = asperity.SelfAffineSpectrum(
 )
 
 
-def filtered(heights: np.ndarray, lowest: float, highest: float) -> np.ndarray:
+def filtered(heights, lowest, highest):
     n = len(heights)
     k = 2 * np.pi * np.fft.fftfreq(n, LENGTH / n)
     q = np.hypot(k, k[:, None])
@@ -28,14 +27,14 @@ def filtered(heights: np.ndarray, lowest: float, highest: float) -> np.ndarray:
     return np.fft.ifft2(modes).real
 
 
-def worn(n: int = 128, seed: int = 1) -> asperity.HeightMap:
+def worn(n=128, seed=1):
     """A periodic map with flattened tops, of the band of ROAD."""
     z = asperity.synthesize(ROAD, shape=(n, n), pixel_size=LENGTH / n, seed=seed).heights / 1e-4
     h = filtered(-np.logaddexp(0, -1.2 * z - 0.5), ROAD.q0, ROAD.q1)
     return asperity.HeightMap(h * 1e-4 / h.std(), pixel_size=LENGTH / n)
 
 
-def rings(scan: asperity.HeightMap) -> asperity.TabulatedSpectrum:
+def rings(scan):
     spectrum = asperity.power_spectrum(scan, window="none", detrend=None)
     return spectrum.truncated(q0=ROAD.q0, q1=ROAD.q1)
 
@@ -45,16 +44,16 @@ SPECTRUM = rings(SCAN)
 EXACT = asperity.ScanContact(SCAN, periodic=True)
 
 
-def friction(velocity: Any, pressure: Any = 2e5, correction: Any = EXACT, **more: Any) -> Any:
+def friction(velocity, pressure=2e5, correction=EXACT, **more):
     scene = {"correction": correction, "pressure": pressure, "velocity": velocity} | more
     return asperity.friction(SPECTRUM, RUBBER, **scene)
 
 
-def truth(velocity: float, pressure: float = 2e5) -> Any:
+def truth(velocity, pressure=2e5):
     return slide(SCAN, RUBBER, pressure=pressure, velocity=velocity, periodic=True, rtol=1e-5)
 
 
-def test_it_is_exact_where_it_is_solved_and_near_to_it_between() -> None:
+def test_it_is_exact_where_it_is_solved_and_near_to_it_between():
     assert SCAN.skewness < -0.7
     velocity = 1.37 * np.geomspace(1e-6, 1, 16)
     result = friction(velocity)
@@ -79,7 +78,7 @@ def test_it_is_exact_where_it_is_solved_and_near_to_it_between() -> None:
     assert row.hysteresis == pytest.approx(truth(row.velocity).hysteresis, rel=1e-3)
 
 
-def test_each_error_stands_apart_in_its_contacts() -> None:
+def test_each_error_stands_apart_in_its_contacts():
     anew = asperity.ScanContact(SCAN, periodic=True)
     result = friction(0.013, correction=anew)
     table = anew.contacts.to_dataframe()
@@ -100,7 +99,7 @@ def test_each_error_stands_apart_in_its_contacts() -> None:
     assert table.points_x[half] < 0.6 * table.points_x[at]
 
 
-def test_a_steep_modulus_is_solved_at_every_node() -> None:
+def test_a_steep_modulus_is_solved_at_every_node():
     # E0 / E_inf = 300 in one term: a loss tangent of 8.6
     steep = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[299e6], relaxation_times=[1e-3])
     anew = asperity.ScanContact(SCAN, periodic=True)
@@ -111,7 +110,7 @@ def test_a_steep_modulus_is_solved_at_every_node() -> None:
     assert result.mu == pytest.approx([c.hysteresis for c in exact], rel=0.02)
 
 
-def test_digits_do_not_depend_on_order_threads_or_what_was_solved() -> None:
+def test_digits_do_not_depend_on_order_threads_or_what_was_solved():
     velocity = np.geomspace(1e-4, 1, 5)
     whole = friction(velocity)
     anew = asperity.ScanContact(SCAN, periodic=True)
@@ -125,7 +124,7 @@ def test_digits_do_not_depend_on_order_threads_or_what_was_solved() -> None:
     assert result == whole.mu.tolist()
 
 
-def test_what_was_solved_is_kept_and_carried(tmp_path: Any) -> None:
+def test_what_was_solved_is_kept_and_carried(tmp_path):
     first = friction(0.01)
     count = len(EXACT.contacts)
     assert friction(0.01).mu == first.mu
@@ -143,7 +142,7 @@ def test_what_was_solved_is_kept_and_carried(tmp_path: Any) -> None:
         asperity.ScanContact.load(tmp_path / "other.npz")
 
 
-def test_one_lattice_serves_all_temperatures() -> None:
+def test_one_lattice_serves_all_temperatures():
     law = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
     anew = asperity.ScanContact(SCAN, periodic=True)
     first = friction(0.01, correction=anew)
@@ -154,7 +153,7 @@ def test_one_lattice_serves_all_temperatures() -> None:
     assert len(anew.contacts) == count
 
 
-def test_a_rubber_without_loss_has_no_friction_and_the_exact_area() -> None:
+def test_a_rubber_without_loss_has_no_friction_and_the_exact_area():
     elastic = asperity.PronySeries(equilibrium_modulus=2e6, moduli=[], relaxation_times=[])
     result = asperity.friction(SPECTRUM, elastic, pressure=2e5, velocity=1.0, correction=EXACT)
     exact = slide(SCAN, elastic, pressure=2e5, velocity=0.0, periodic=True, rtol=1e-5)
@@ -162,7 +161,7 @@ def test_a_rubber_without_loss_has_no_friction_and_the_exact_area() -> None:
     assert result.contact_area == pytest.approx(exact.contact_area, rel=1e-3)
 
 
-def test_area_and_contributions() -> None:
+def test_area_and_contributions():
     area = asperity.contact_area(SPECTRUM, RUBBER, pressure=2e5, velocity=0.1, correction=EXACT)
     assert area == friction(0.1).contact_area
     q = ROAD.q1 / 2
@@ -181,7 +180,7 @@ def test_area_and_contributions() -> None:
         asperity.pressure_distribution(1e6, SPECTRUM, RUBBER, **scene)
 
 
-def test_a_map_that_is_no_sample_of_the_spectrum_is_refused() -> None:
+def test_a_map_that_is_no_sample_of_the_spectrum_is_refused():
     lost = np.random.default_rng(1).random(SCAN.heights.shape) < 1 / 3
     holed = asperity.HeightMap(np.where(lost, np.nan, SCAN.heights), pixel_size=SCAN.pixel_size)
     with pytest.raises(asperity.InvalidInput):
@@ -193,7 +192,7 @@ def test_a_map_that_is_no_sample_of_the_spectrum_is_refused() -> None:
         asperity.friction(far, RUBBER, pressure=2e5, velocity=0.1, correction=EXACT)
 
 
-def test_beyond_the_map_the_theory_goes_on() -> None:
+def test_beyond_the_map_the_theory_goes_on():
     longer = asperity.SelfAffineSpectrum(
         rms_height=SPECTRUM.rms_height, hurst=0.8, q0=ROAD.q0, q1=ROAD.q1 * 20
     )
@@ -204,7 +203,7 @@ def test_beyond_the_map_the_theory_goes_on() -> None:
     assert result.contact_area < inside.contact_area
 
 
-def test_a_scan_with_edges_drop_outs_and_a_tilt() -> None:
+def test_a_scan_with_edges_drop_outs_and_a_tilt():
     whole = worn(512, seed=3)
     spectrum = rings(whole)
     cut = whole.heights[40:424, 100:484].copy()
@@ -220,7 +219,7 @@ def test_a_scan_with_edges_drop_outs_and_a_tilt() -> None:
     assert (np.abs(result.mu / exact.mu - 1) < 3 * result.model_error).all()
 
 
-def large(n: int = 1280) -> tuple[asperity.HeightMap, asperity.TabulatedSpectrum]:
+def large(n=1280):
     """A periodic worn map that one grid does not hold, and its rings."""
     end = np.pi * n / 4 / LENGTH
     band = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=ROAD.q0, q1=end)
@@ -231,7 +230,7 @@ def large(n: int = 1280) -> tuple[asperity.HeightMap, asperity.TabulatedSpectrum
     return scan, rings.truncated(q0=ROAD.q0, q1=end)
 
 
-def test_a_scan_that_one_grid_does_not_hold_has_its_short_waves_from_pieces() -> None:
+def test_a_scan_that_one_grid_does_not_hold_has_its_short_waves_from_pieces():
     scan, spectrum = large()
     elastic = asperity.PronySeries(equilibrium_modulus=2e6, moduli=[], relaxation_times=[])
     scene = {"pressure": 2e5, "velocity": 1.0}
@@ -254,7 +253,7 @@ def test_a_scan_that_one_grid_does_not_hold_has_its_short_waves_from_pieces() ->
     assert result.contact_area > 0.1
 
 
-def test_many_pressures_are_asked_on_a_lattice() -> None:
+def test_many_pressures_are_asked_on_a_lattice():
     anew = asperity.ScanContact(SCAN, periodic=True)
     pressure = np.geomspace(1e5, 4e5, 20)
     result = friction(0.01, pressure=pressure, correction=anew)
@@ -268,14 +267,14 @@ def test_many_pressures_are_asked_on_a_lattice() -> None:
 LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 
 
-def heated(conductivity: float, velocity: Any) -> Any:
+def heated(conductivity, velocity):
     heating = asperity.Heating(
         density=1200.0, heat_capacity=1650.0, conductivity=conductivity, contact_diameter=2e-3
     )
     return friction(velocity, temperature=293.15, shift=LAW, heating=heating)
 
 
-def test_with_heat_each_wave_has_its_temperature() -> None:
+def test_with_heat_each_wave_has_its_temperature():
     velocity = np.array([0.1, 10.0])
     exact = [truth(v) for v in velocity]
     faint = heated(100.0, velocity[:1])  # whose heat flows away: the cold contact
@@ -308,7 +307,7 @@ def test_with_heat_each_wave_has_its_temperature() -> None:
         )
 
 
-def test_a_map_of_it_is_certified_against_friction() -> None:
+def test_a_map_of_it_is_certified_against_friction():
     scene = {"pressure": (1e5, 4e5), "velocity": (1e-2, 0.1), "correction": EXACT}
     fmap = asperity.friction_map(SPECTRUM, RUBBER, rtol=1e-2, checked=200, **scene)
     rng = np.random.default_rng(5)
@@ -317,7 +316,7 @@ def test_a_map_of_it_is_certified_against_friction() -> None:
     assert (np.abs(fmap.mu(p, v) / result.mu - 1) <= fmap.max_error).all()
 
 
-def test_a_scene_takes_its_own_scan(tmp_path: Any) -> None:
+def test_a_scene_takes_its_own_scan(tmp_path):
     from asperity.cli import main
 
     np.save(tmp_path / "scan.npy", SCAN.heights)

@@ -1,7 +1,5 @@
 """The contact of a scan in any direction of sliding: that of `slide`, and of a turned scan."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -27,13 +25,13 @@ AT = {"pressure": 2e5, "velocity": 0.0137}
 EXACT = asperity.ScanContact(SCAN, periodic=True)
 
 
-def friction(direction: Any, correction: Any = EXACT, spectrum: Any = RINGS, **more: Any) -> Any:
+def friction(direction, correction=EXACT, spectrum=RINGS, **more):
     scene = {**AT, "correction": correction, "direction": direction} | more
     return asperity.friction(spectrum, RUBBER, **scene)
 
 
 @pytest.mark.parametrize("degrees", [20, 60, 110])
-def test_a_node_is_that_of_slide(degrees: float) -> None:
+def test_a_node_is_that_of_slide(degrees):
     direction = np.radians(degrees)
     between = friction(direction)
     table = EXACT.contacts.to_dataframe()
@@ -59,7 +57,7 @@ def test_a_node_is_that_of_slide(degrees: float) -> None:
     assert between.model_error > abs(between.mu / exact.hysteresis - 1) / 2
 
 
-def test_a_turned_scan_is_a_turned_direction() -> None:
+def test_a_turned_scan_is_a_turned_direction():
     of_turned = asperity.ScanContact(TURNED, periodic=True)
     one, other = friction(0.3), friction(0.3 + np.pi / 2, of_turned)
     for name in ("mu", "lateral", "contact_area"):
@@ -67,7 +65,7 @@ def test_a_turned_scan_is_a_turned_direction() -> None:
     assert friction(0.3, of_turned).mu != pytest.approx(one.mu, rel=0.1)
 
 
-def test_the_scan_knows_directions_whatever_the_spectrum_does() -> None:
+def test_the_scan_knows_directions_whatever_the_spectrum_does():
     result = friction([0.3, 1.1])
     assert result.direction.tolist() == [0.3, 1.1]
     for spectrum in (asperity.power_spectrum(SCAN, window="none", detrend=None, directional=True),):
@@ -83,7 +81,7 @@ def test_the_scan_knows_directions_whatever_the_spectrum_does() -> None:
     assert along < 0.7 * across
 
 
-def test_directions_are_saved(tmp_path: Any) -> None:
+def test_directions_are_saved(tmp_path):
     first = friction(0.3)
     EXACT.save(tmp_path / "scan.npz")
     again = asperity.ScanContact.load(tmp_path / "scan.npz")

@@ -1,8 +1,5 @@
 """One file for each isotherm, its temperature said beside it."""
 
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -21,7 +18,7 @@ CELSIUS = [30.0, 10.0, 20.0]
 
 
 @pytest.fixture
-def files(tmp_path: Path) -> list[Path]:
+def files(tmp_path):
     """Sweeps at CELSIUS of a rubber whose shift is 0.1 decade a kelvin, none at 20 C."""
     paths = []
     for celsius in CELSIUS:
@@ -34,7 +31,7 @@ def files(tmp_path: Path) -> list[Path]:
     return paths
 
 
-def test_temperatures_go_with_their_files(files: list[Path]) -> None:
+def test_temperatures_go_with_their_files(files):
     sweeps = asperity.read_isotherms(
         files, columns=COLUMNS, units=UNITS, modulus="E", temperatures=CELSIUS
     )
@@ -54,7 +51,7 @@ units = {frequency = "rad/s", temperature = "C", modulus = "MPa"}
 """
 
 
-def test_a_scene_takes_them_and_a_prony_series_through_them(files: list[Path]) -> None:
+def test_a_scene_takes_them_and_a_prony_series_through_them(files):
     path = files[0].parent / "scene.toml"
     rubber = {}
     for more in ("", "prony = true\n"):
@@ -68,10 +65,10 @@ def test_a_scene_takes_them_and_a_prony_series_through_them(files: list[Path]) -
     np.testing.assert_allclose(series.modulus(w), RUBBER.modulus(w), rtol=0.01)
 
 
-def test_a_scene_goes_beyond_the_fitted_frequencies_when_asked_by_name(files: list[Path]) -> None:
+def test_a_scene_goes_beyond_the_fitted_frequencies_when_asked_by_name(files):
     path = files[0].parent / "scene.toml"
 
-    def compute(*keys: str) -> Any:
+    def compute(*keys):
         path.write_text(SURFACE + SCENE + "\n".join((*keys, CONDITIONS)))
         return load_scene(path).friction()
 

@@ -10,7 +10,7 @@ from random_gradients import compute
 
 
 @pytest.mark.parametrize("scene", range(24))
-def test_slopes_are_those_of_differences_within_the_stated_error(scene: int) -> None:
+def test_slopes_are_those_of_differences_within_the_stated_error(scene):
     outcome = compute(7, scene)
     assert outcome.refused in ("", "no friction")
     for name, (error, stated, left) in outcome.errors.items():

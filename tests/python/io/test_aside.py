@@ -24,14 +24,14 @@ with folder_beside(Path(sys.argv[1])) as folder:
 """
 
 
-def aged(folder: Path) -> Path:
+def aged(folder):
     """As if it had been made an hour ago."""
     before = time.time() - 3600
     os.utime(folder, (before, before))
     return folder
 
 
-def test_folders_of_a_killed_process_go_and_those_of_a_living_one_stay(tmp_path: Path) -> None:
+def test_folders_of_a_killed_process_go_and_those_of_a_living_one_stay(tmp_path):
     process = subprocess.Popen(
         [sys.executable, "-c", HOLD, str(tmp_path / "a.zarr")], stdout=subprocess.PIPE, text=True
     )
@@ -51,7 +51,7 @@ def test_folders_of_a_killed_process_go_and_those_of_a_living_one_stay(tmp_path:
     assert list(tmp_path.iterdir()) == []
 
 
-def test_what_is_not_ours_stays(tmp_path: Path) -> None:
+def test_what_is_not_ours_stays(tmp_path):
     foreign, young, link = (
         tmp_path / f".asperity-{name}" for name in ("settings", "12345678", "l")
     )
@@ -65,7 +65,7 @@ def test_what_is_not_ours_stays(tmp_path: Path) -> None:
     assert {foreign, young, link} == set(tmp_path.iterdir())
 
 
-def test_a_closed_folder_is_free(tmp_path: Path) -> None:
+def test_a_closed_folder_is_free(tmp_path):
     folder, handle = locked_folder("asperity-app-", tmp_path)
     remove_left(tmp_path, "asperity-app-")
     aged(folder)

@@ -4,8 +4,6 @@ import os
 import stat
 import sys
 import threading
-from collections.abc import Callable
-from pathlib import Path
 
 import pytest
 
@@ -15,18 +13,18 @@ from asperity.io import files
 from asperity.io.files import check_directory, check_output, write_files, write_whole
 
 
-def at_every_line(folder: Path, run: Callable[[], object]) -> list[dict[str, bytes]]:
+def at_every_line(folder, run):
     """The folder's files as a process would leave them that is killed at a line of `files`."""
     result = []
 
-    def look(frame: object, event: str, _: object) -> object:
-        if frame.f_code.co_filename != files.__file__:  # type: ignore[attr-defined]
+    def look(frame, event, _):
+        if frame.f_code.co_filename != files.__file__:
             return None
         result.append({p.name: p.read_bytes() for p in folder.rglob("*") if p.is_file()})
         return look
 
     before = sys.gettrace()
-    sys.settrace(look)  # type: ignore[arg-type]
+    sys.settrace(look)
     try:
         run()
     finally:
@@ -53,9 +51,7 @@ COMMANDS = {
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_a_command_that_is_killed_leaves_old_files_or_new_ones(
-    folder: Path, undrawn: None, capsys: pytest.CaptureFixture[str], command: str
-) -> None:
+def test_a_command_that_is_killed_leaves_old_files_or_new_ones(folder, undrawn, capsys, command):
     out = folder / "out"
     out.mkdir(exist_ok=True)
     assert main(COMMANDS[command]) == 0
@@ -76,18 +72,18 @@ def test_a_command_that_is_killed_leaves_old_files_or_new_ones(
         (out / name).unlink()
 
 
-def test_two_writers_of_one_file_end_with_one_of_both(tmp_path: Path) -> None:
+def test_two_writers_of_one_file_end_with_one_of_both(tmp_path):
     target = tmp_path / "a"
     contents = [bytes([number]) * 100_000 for number in range(4)]
 
-    def write(content: bytes) -> None:
+    def write(content):
         for _ in range(25):
             write_whole(target, content)
             assert target.read_bytes() in contents
 
     failed: list[BaseException] = []
 
-    def run(content: bytes) -> None:
+    def run(content):
         try:
             write(content)
         except BaseException as error:
@@ -104,7 +100,7 @@ def test_two_writers_of_one_file_end_with_one_of_both(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("mode", [0o600, 0o640, 0o604, 0o755])
-def test_permissions_of_a_file_stay(tmp_path: Path, mode: int) -> None:
+def test_permissions_of_a_file_stay(tmp_path, mode):
     target = tmp_path / "a"
     target.write_bytes(b"old")
     target.chmod(mode)
@@ -113,7 +109,7 @@ def test_permissions_of_a_file_stay(tmp_path: Path, mode: int) -> None:
     assert stat.S_IMODE(target.stat().st_mode) == mode
 
 
-def test_a_new_file_gets_what_the_process_gives_its_files(tmp_path: Path) -> None:
+def test_a_new_file_gets_what_the_process_gives_its_files(tmp_path):
     before = os.umask(0o027)
     try:
         write_whole(tmp_path / "a", b"new")
@@ -124,13 +120,13 @@ def test_a_new_file_gets_what_the_process_gives_its_files(tmp_path: Path) -> Non
 
 
 @pytest.mark.parametrize("name", ["x" * 250, "x" * 255, "é" * 125])
-def test_a_long_name_saves(tmp_path: Path, name: str) -> None:
+def test_a_long_name_saves(tmp_path, name):
     check_output(tmp_path / name)
     write_whole(tmp_path / name, b"new")
     assert (tmp_path / name).read_bytes() == b"new"
 
 
-def test_devices_and_pipes_are_written_into(tmp_path: Path) -> None:
+def test_devices_and_pipes_are_written_into(tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
     read: list[bytes] = []
@@ -147,7 +143,7 @@ def test_devices_and_pipes_are_written_into(tmp_path: Path) -> None:
     assert stat.S_ISCHR(os.stat("/dev/null").st_mode)
 
 
-def test_what_a_link_leads_to_is_written(tmp_path: Path) -> None:
+def test_what_a_link_leads_to_is_written(tmp_path):
     (tmp_path / "to").symlink_to("a")
     for content in (b"new", b"newer"):
         write_whole(tmp_path / "to", content)
@@ -156,7 +152,7 @@ def test_what_a_link_leads_to_is_written(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("check", [check_output, lambda path: write_whole(path, b"new")])
-def test_a_loop_of_links_is_refused(tmp_path: Path, check: Callable[[Path], None]) -> None:
+def test_a_loop_of_links_is_refused(tmp_path, check):
     loop = tmp_path / "loop"
     if not loop.is_symlink():
         loop.symlink_to(loop)

@@ -7,7 +7,7 @@ import struct
 import subprocess
 import sys
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
@@ -42,7 +42,7 @@ BLOCKS = 20  # of 16 MiB: more than what may be taken
 
 
 @cache
-def zipped(method: int, *names: str) -> bytes:
+def zipped(method, *names):
     """Members of zeros, in pieces."""
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", method, compresslevel=9) as archive:
@@ -53,7 +53,7 @@ def zipped(method: int, *names: str) -> bytes:
     return out.getvalue()
 
 
-def understated(archive: bytes) -> bytes:
+def understated(archive):
     """The same, declared to inflate to 16 bytes."""
     with zipfile.ZipFile(io.BytesIO(archive)) as whole:
         size = whole.infolist()[0].file_size
@@ -62,7 +62,7 @@ def understated(archive: bytes) -> bytes:
     return archive
 
 
-def header(shape: tuple[int, ...]) -> bytes:
+def header(shape):
     out = io.BytesIO()
     np.lib.format.write_array_header_1_0(
         out, {"descr": "<f8", "fortran_order": False, "shape": shape}
@@ -71,7 +71,7 @@ def header(shape: tuple[int, ...]) -> bytes:
 
 
 @cache
-def array_of_zeros() -> bytes:
+def array_of_zeros():
     out = io.BytesIO()
     archive = zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED)
     with archive, archive.open("h.npy", "w", force_zip64=True) as member:
@@ -81,7 +81,7 @@ def array_of_zeros() -> bytes:
     return out.getvalue()
 
 
-def many_parts(form: str) -> Callable[[], bytes]:
+def many_parts(form):
     return lambda: (SCENE + form.format(".".join(["a"] * 40_000))).encode()
 
 
@@ -134,7 +134,7 @@ for line in sys.stdin:
 
 
 @pytest.fixture(scope="module")
-def refused() -> Iterator[Callable[[Path, str], str]]:
+def refused():
     """The line that a process of its own says, in 300 MB and 10 s of processor time; what is
     imported is imported once."""
     with subprocess.Popen(
@@ -143,7 +143,7 @@ def refused() -> Iterator[Callable[[Path, str], str]]:
         assert server.stdin is not None
         assert server.stdout is not None
 
-        def ask(path: Path, code: str) -> str:
+        def ask(path, code):
             print(json.dumps([str(path), code]), file=server.stdin, flush=True)
             answer = json.loads(server.stdout.readline())
             assert answer is not None, "it died"
@@ -157,9 +157,7 @@ def refused() -> Iterator[Callable[[Path, str], str]]:
 
 
 @pytest.mark.parametrize("name", HOSTILE)
-def test_a_small_file_cannot_take_much(
-    tmp_path: Path, refused: Callable[[Path, str], str], name: str
-) -> None:
+def test_a_small_file_cannot_take_much(tmp_path, refused, name):
     file, content, code = HOSTILE[name]
     path = tmp_path / file
     path.write_bytes(content())
@@ -167,9 +165,7 @@ def test_a_small_file_cannot_take_much(
     assert len(refused(path, code)) < 1000
 
 
-def test_a_file_without_an_end_is_refused(
-    tmp_path: Path, refused: Callable[[Path, str], str]
-) -> None:
+def test_a_file_without_an_end_is_refused(tmp_path, refused):
     endless = Path("/proc/kmsg")
     if not endless.exists() or not os.access(endless, os.R_OK):
         pytest.skip("there is no /proc/kmsg to read")

@@ -2,7 +2,6 @@
 
 import warnings
 import zipfile
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,7 +16,7 @@ MAP = HeightMap(np.random.default_rng(1).normal(size=(20, 31)) * 1e-6, pixel_siz
 LINE = LineScan(np.random.default_rng(1).normal(size=50) * 1e-6, spacing=1e-6)
 
 
-def same(result: HeightMap | LineScan, known: HeightMap | LineScan) -> None:
+def same(result, known):
     assert type(result) is type(known)
     np.testing.assert_allclose(result.heights, known.heights, rtol=1e-12)
     for name in {"pixel_size", "spacing"} & set(vars(known)):
@@ -25,13 +24,13 @@ def same(result: HeightMap | LineScan, known: HeightMap | LineScan) -> None:
 
 
 @pytest.mark.parametrize("known", [MAP, LINE])
-def test_what_we_gave_to_pandas_and_xarray_comes_back(known: HeightMap | LineScan) -> None:
+def test_what_we_gave_to_pandas_and_xarray_comes_back(known):
     dataset = known.to_xarray()
     for given in (known.to_dataframe(), dataset, dataset["height"]):
         same(read_surface(given), known)
 
 
-def test_a_data_array_in_other_units() -> None:
+def test_a_data_array_in_other_units():
     xarray = pytest.importorskip("xarray")
     places = {
         name: (name, np.arange(n) * step * 1e3, {"units": "mm"})
@@ -51,13 +50,13 @@ def test_a_data_array_in_other_units() -> None:
         assert caught.value.argument == argument
 
 
-def topography(**unit: str) -> object:
+def topography(**unit):
     topographies = pytest.importorskip("SurfaceTopography")
     sizes = 31e-3, 40e-3  # mm
     return topographies.Topography(MAP.heights.T * 1e3, sizes, **unit)
 
 
-def test_a_topography_of_surface_topography() -> None:
+def test_a_topography_of_surface_topography():
     same(read_surface(topography(unit="mm")), MAP)
     same(read_surface(topography(), unit="mm"), MAP)
     assert power_spectrum(topography(unit="mm")).q0 == pytest.approx(power_spectrum(MAP).q0)
@@ -66,13 +65,13 @@ def test_a_topography_of_surface_topography() -> None:
 
 
 @pytest.mark.parametrize("columns", [("a", "b", "c"), ("x", "y")])
-def test_other_tables_are_refused(columns: tuple[str, ...]) -> None:
+def test_other_tables_are_refused(columns):
     pandas = pytest.importorskip("pandas")
     with pytest.raises(InvalidInput, match=r"must be of x, \(y,\) and height"):
         read_surface(pandas.DataFrame(np.zeros((3, len(columns))), columns=columns))
 
 
-def test_moduli_of_tables() -> None:
+def test_moduli_of_tables():
     pandas = pytest.importorskip("pandas")
     w = np.geomspace(0.1, 100, 12)
     rubber = prony(3e6, [1e7, 1e8], [1, 1e-2])
@@ -93,7 +92,7 @@ def test_moduli_of_tables() -> None:
         asperity.read_isotherms(frame, **how)
 
 
-def test_a_master_curve_comes_back() -> None:
+def test_a_master_curve_comes_back():
     curve = asperity.MasterCurve(
         angular_frequency=[1e-9, 1.0, 7.0], storage_modulus=[1e6, 3e6, 5e6], loss_modulus=[1e5] * 3
     )
@@ -101,7 +100,7 @@ def test_a_master_curve_comes_back() -> None:
         assert asperity.read_master_curve(given) == curve
 
 
-def archive(path: Path) -> None:
+def archive(path):
     """Two scans in the layout of contact.engineering."""
     topographies = pytest.importorskip("SurfaceTopography")
     lines = ["surfaces:", "- name: road", "  topographies:"]
@@ -119,7 +118,7 @@ def archive(path: Path) -> None:
         file.writestr("meta.yml", "\n".join(lines))
 
 
-def test_an_archive_of_contact_engineering(tmp_path: Path) -> None:
+def test_an_archive_of_contact_engineering(tmp_path):
     archive(tmp_path / "road.zip")
     for channel, pixel in enumerate((1e-6, 1e-7)):
         scan = read_surface(tmp_path / "road.zip", channel=channel)
@@ -137,7 +136,7 @@ def test_an_archive_of_contact_engineering(tmp_path: Path) -> None:
     assert whole.q1 > 0.9 * fine.q1
 
 
-def test_other_archives_are_refused(tmp_path: Path) -> None:
+def test_other_archives_are_refused(tmp_path):
     pytest.importorskip("SurfaceTopography")
     with zipfile.ZipFile(tmp_path / "a.zip", "w") as file:
         file.writestr("note.txt", "hello")

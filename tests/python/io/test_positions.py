@@ -1,7 +1,5 @@
 """Rows of positions and heights: maps and line scans, or refused by their name."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -13,13 +11,13 @@ X, Y = np.meshgrid(np.arange(7) * DX + 40, np.arange(5) * DY - 6)
 ROWS = np.column_stack([X.ravel(), Y.ravel(), HEIGHTS.ravel()])
 
 
-def text(rows: np.ndarray, head: str = "", mark: str = "\t") -> str:
+def text(rows, head="", mark="\t"):
     return head + "".join(mark.join(f"{cell:.3f}" for cell in row) + "\n" for row in rows)
 
 
 @pytest.mark.parametrize("order", ["by rows", "by columns", "shuffled"])
 @pytest.mark.parametrize("name", ["map.txt", "map.csv", "map.xyz"])
-def test_rows_of_x_y_z_are_a_map(tmp_path: Path, name: str, order: str) -> None:
+def test_rows_of_x_y_z_are_a_map(tmp_path, name, order):
     at = np.arange(35).reshape(5, 7)
     places = {
         "by rows": at.ravel(),
@@ -33,7 +31,7 @@ def test_rows_of_x_y_z_are_a_map(tmp_path: Path, name: str, order: str) -> None:
     np.testing.assert_allclose(surface.pixel_size, (DY * 1e-6, DX * 1e-6), rtol=1e-3)
 
 
-def test_points_that_are_missing_are_dropouts(tmp_path: Path) -> None:
+def test_points_that_are_missing_are_dropouts(tmp_path):
     (tmp_path / "map.txt").write_text(text(np.delete(ROWS, [3, 11, 20], axis=0)))
     surface = read_surface(tmp_path / "map.txt", unit="um")
     missing = np.flatnonzero(np.isnan(surface.heights.ravel()))
@@ -50,16 +48,14 @@ def test_points_that_are_missing_are_dropouts(tmp_path: Path) -> None:
         ("x;y;z\n", {"unit": "um", "pixel_size": (3e-3, 1e-3 / 3)}, (1e-3, 1e-6)),
     ],
 )
-def test_units_are_those_of_the_file_or_given(
-    tmp_path: Path, head: str, given: dict[str, object], metres: tuple[float, float]
-) -> None:
+def test_units_are_those_of_the_file_or_given(tmp_path, head, given, metres):
     (tmp_path / "map.txt").write_text(text(ROWS, head, ";"), encoding="utf-8")
-    surface = read_surface(tmp_path / "map.txt", **given)  # type: ignore[arg-type]
+    surface = read_surface(tmp_path / "map.txt", **given)
     np.testing.assert_allclose(surface.pixel_size[0], DY * metres[0], rtol=1e-3)
     np.testing.assert_allclose(surface.heights, metres[1] * HEIGHTS, atol=6e-4 * metres[1])
 
 
-def test_rows_of_x_z_are_a_line_scan(tmp_path: Path) -> None:
+def test_rows_of_x_z_are_a_line_scan(tmp_path):
     profile = np.column_stack([np.arange(35) * 0.5, HEIGHTS.ravel()])
     for rows in (profile, profile[::-1]):
         (tmp_path / "line.csv").write_text(text(rows, "pos [um],z [nm]\n", ","))
@@ -85,11 +81,9 @@ HOLED = ROWS * [1, 1, np.nan]
         (np.column_stack([np.arange(30) ** 2, CLOUD[:30, 0]]), {"unit": "um"}, "equally spaced"),
     ],
 )
-def test_what_is_no_scan_is_refused_by_its_name(
-    tmp_path: Path, rows: np.ndarray, given: dict[str, object], message: str
-) -> None:
+def test_what_is_no_scan_is_refused_by_its_name(tmp_path, rows, given, message):
     (tmp_path / "map.txt").write_text(text(rows))
     with pytest.raises(InvalidInput) as caught:
-        read_surface(tmp_path / "map.txt", **given)  # type: ignore[arg-type]
+        read_surface(tmp_path / "map.txt", **given)
     assert str(caught.value).startswith(f"{tmp_path / 'map.txt'}: ")
     assert message in str(caught.value)

@@ -2,7 +2,6 @@
 
 import warnings
 import zipfile
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,7 +22,7 @@ from asperity import InvalidInput, read_surface
         ("pm", 1e-12),
     ],
 )
-def test_unit_is_that_of_the_heights_alone(tmp_path: Path, unit: str, metres: float) -> None:
+def test_unit_is_that_of_the_heights_alone(tmp_path, unit, metres):
     path = tmp_path / "scan.csv"
     path.write_text("1,2\n3,4\n")
     surface = read_surface(path, pixel_size=1e-6, unit=unit)
@@ -41,7 +40,7 @@ def test_unit_is_that_of_the_heights_alone(tmp_path: Path, unit: str, metres: fl
         ("e.csv", "\ufeff1,2,,\n3,,5,\n"),
     ],
 )
-def test_text_matrices(tmp_path: Path, name: str, text: str) -> None:
+def test_text_matrices(tmp_path, name, text):
     path = tmp_path / name
     path.write_text(text, encoding="utf-8")
     surface = read_surface(path, pixel_size=1.0, unit="m")
@@ -57,14 +56,14 @@ def test_text_matrices(tmp_path: Path, name: str, text: str) -> None:
         "1.5 ,-22.5\n0.5 ,\n",
     ],
 )
-def test_a_comma_that_parts_no_cells_is_a_decimal_one(tmp_path: Path, text: str) -> None:
+def test_a_comma_that_parts_no_cells_is_a_decimal_one(tmp_path, text):
     path = tmp_path / "scan.csv"
     path.write_text(text, encoding="utf-8")
     heights = read_surface(path, pixel_size=1.0, unit="m").heights[:, :2]
     np.testing.assert_array_equal(heights, [[1.5, -22.5], [0.5, np.nan]])
 
 
-def test_instrument_dropouts_are_nan(tmp_path: Path) -> None:
+def test_instrument_dropouts_are_nan(tmp_path):
     topography = pytest.importorskip("SurfaceTopography")
     heights = np.ma.masked_equal([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]], 4.0)
     path = tmp_path / "scan.nc"
@@ -86,9 +85,7 @@ def test_instrument_dropouts_are_nan(tmp_path: Path) -> None:
 )
 @pytest.mark.parametrize("unit", ["m", "um"])
 @pytest.mark.filterwarnings("error")
-def test_a_signalling_nan_is_a_dropout_like_others(
-    tmp_path: Path, dtype: type, bits: type, signalling: int, unit: str
-) -> None:
+def test_a_signalling_nan_is_a_dropout_like_others(tmp_path, dtype, bits, signalling, unit):
     heights = np.random.default_rng(1).normal(size=(24, 20)).astype(dtype)
     heights.view(bits)[3, 3] = signalling
     for given, name in ((heights, "map.npy"), (heights[3], "line.npy")):
@@ -105,9 +102,7 @@ OFFSET = "<Offset>0</Offset>"
 
 
 @pytest.mark.parametrize(("folder", "offset"), [("", OFFSET), ("scan/", OFFSET), ("", "<Offset/>")])
-def test_x3p_with_its_files_in_a_folder_or_an_empty_offset(
-    tmp_path: Path, folder: str, offset: str
-) -> None:
+def test_x3p_with_its_files_in_a_folder_or_an_empty_offset(tmp_path, folder, offset):
     """As file managers pack them, and R's x3ptools write them."""
     pytest.importorskip("SurfaceTopography")
     heights = np.arange(12.0).reshape(3, 4) * 1e-7
@@ -129,7 +124,7 @@ def test_x3p_with_its_files_in_a_folder_or_an_empty_offset(
     assert surface.pixel_size == (2e-6, 2e-6)
 
 
-def test_a_pixel_that_no_scan_has_may_be_given(tmp_path: Path) -> None:
+def test_a_pixel_that_no_scan_has_may_be_given(tmp_path):
     """A file in micrometres whose program stated them as metres."""
     pytest.importorskip("SurfaceTopography")
     path = tmp_path / "scan.asc"

@@ -2,9 +2,7 @@
 
 import tracemalloc
 import warnings
-from collections.abc import Callable
 from itertools import product
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -29,11 +27,9 @@ DEKTAK = "Scan Parameters\nStylus,Radius: 2.5 µm\n\nScan Data\n\nLateral um,Raw
 @pytest.mark.parametrize("dtype", ["f4", "f8", ">f4", ">f8", "f2", "i2", "u1", "g"])
 @pytest.mark.parametrize(("unit", "metres"), [("m", 1.0), ("nm", 1e-9)])
 @pytest.mark.parametrize("save", [np.save, np.savez])
-def test_arrays_of_any_type_and_order(
-    tmp_path: Path, save: Callable[..., None], unit: str, metres: float, dtype: str, order: str
-) -> None:
+def test_arrays_of_any_type_and_order(tmp_path, save, unit, metres, dtype, order):
     path = tmp_path / ("scan.npy" if save is np.save else "scan.npz")
-    heights = MAP.astype(dtype).copy(order)  # type: ignore[call-overload]
+    heights = MAP.astype(dtype).copy(order)
     save(path, heights)
     surface = read_surface(path, pixel_size=(2e-6, 1e-6), unit=unit)
     assert surface.pixel_size == (2e-6, 1e-6)
@@ -42,7 +38,7 @@ def test_arrays_of_any_type_and_order(
     np.testing.assert_array_equal(np.load(path) if save is np.save else heights, heights)
 
 
-def _traced(path: Path, unit: str) -> tuple[HeightMap | LineScan, int]:
+def _traced(path, unit):
     """The map, and the most bytes that reading it took at once."""
     tracemalloc.start()
     try:
@@ -54,8 +50,8 @@ def _traced(path: Path, unit: str) -> tuple[HeightMap | LineScan, int]:
 
 @pytest.mark.parametrize("order", ["C", "F"])
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
-def test_no_hidden_copy(tmp_path: Path, dtype: type, order: str) -> None:
-    heights = np.ones((1000, 500), dtype, order)  # type: ignore[call-overload]
+def test_no_hidden_copy(tmp_path, dtype, order):
+    heights = np.ones((1000, 500), dtype, order)
     np.save(tmp_path / "scan.npy", heights)
     np.savez(tmp_path / "scan.npz", heights)
     read_surface(tmp_path / "scan.npz", pixel_size=1.0, unit="m")  # imports once
@@ -65,7 +61,7 @@ def test_no_hidden_copy(tmp_path: Path, dtype: type, order: str) -> None:
         np.testing.assert_allclose(read.heights[0], 1.0 if unit == "m" else 1e-6)
 
 
-def test_a_memory_mapped_file_is_shared(tmp_path: Path) -> None:
+def test_a_memory_mapped_file_is_shared(tmp_path):
     np.save(tmp_path / "scan.npy", np.ones((100, 50)))
     mapped = np.load(tmp_path / "scan.npy", mmap_mode="r")
     assert np.shares_memory(HeightMap(mapped, pixel_size=1.0).heights, mapped)
@@ -73,7 +69,7 @@ def test_a_memory_mapped_file_is_shared(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("save", [np.save, np.savez, np.savez_compressed])
-def test_damaged_arrays(tmp_path: Path, save: Callable[..., None]) -> None:
+def test_damaged_arrays(tmp_path, save):
     path = tmp_path / ("scan.npy" if save is np.save else "scan.npz")
     random = np.random.default_rng(1)
     save(path, random.standard_normal((20, 30)))
@@ -96,7 +92,7 @@ def test_damaged_arrays(tmp_path: Path, save: Callable[..., None]) -> None:
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64, ">f8", np.int16])
 @pytest.mark.parametrize(("unit", "metres"), [("m", 1.0), ("um", 1e-6)])
-def test_arrays_of_one_dimension(tmp_path: Path, dtype: type, unit: str, metres: float) -> None:
+def test_arrays_of_one_dimension(tmp_path, dtype, unit, metres):
     profile = PROFILE.astype(dtype)
     np.save(tmp_path / "scan.npy", profile)
     np.savez(tmp_path / "scan.npz", -profile, profile)
@@ -120,7 +116,7 @@ def test_arrays_of_one_dimension(tmp_path: Path, dtype: type, unit: str, metres:
         "\ufeff1\t2\t\t4\n",
     ],
 )
-def test_text_of_one_column_or_line(tmp_path: Path, text: str) -> None:
+def test_text_of_one_column_or_line(tmp_path, text):
     path = tmp_path / "scan.txt"
     path.write_text(text, encoding="utf-8")
     scan = read_surface(path, pixel_size=1e-6, unit="um")
@@ -128,27 +124,27 @@ def test_text_of_one_column_or_line(tmp_path: Path, text: str) -> None:
     np.testing.assert_allclose(scan.heights, [1e-6, 2e-6, np.nan, 4e-6])
 
 
-def test_line_of_dropouts_in_a_map_parted_by_tabs(tmp_path: Path) -> None:
+def test_line_of_dropouts_in_a_map_parted_by_tabs(tmp_path):
     path = tmp_path / "scan.txt"
     path.write_text("1\t2\n\t\n3\t4\n")
     surface = read_surface(path, pixel_size=1.0, unit="m")
     np.testing.assert_array_equal(surface.heights, [[1, 2], [np.nan, np.nan], [3, 4]])
 
 
-def _read(path: Path, text: str, **given: object) -> HeightMap | LineScan:
+def _read(path, text, **given):
     pytest.importorskip("SurfaceTopography")
     path.write_text(text, encoding="latin-1" if text.startswith("Scan") else "utf-8")
-    return read_surface(path, **given)  # type: ignore[arg-type]
+    return read_surface(path, **given)
 
 
-def test_unit_of_an_instrument_file_is_that_of_all_its_lengths(tmp_path: Path) -> None:
+def test_unit_of_an_instrument_file_is_that_of_all_its_lengths(tmp_path):
     scan = _read(tmp_path / "scan.xyz", "0 1\n1 2\n2 3\n", unit="mm")
     assert isinstance(scan, LineScan)
     assert scan.spacing == pytest.approx(1e-3, rel=1e-12, abs=0)
     np.testing.assert_allclose(scan.heights, [1e-3, 2e-3, 3e-3])
 
 
-def test_profile_without_positions(tmp_path: Path) -> None:
+def test_profile_without_positions(tmp_path):
     scan = _read(tmp_path / "scan.dat", "1\n2\n3\n", unit="um", pixel_size=3e-7)
     assert isinstance(scan, LineScan)
     assert scan.spacing == 3e-7
@@ -156,7 +152,7 @@ def test_profile_without_positions(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("spacing", "digits"), [(0.15625, 1), (0.7, 1), (156.25, -1), (1.3, 0)])
-def test_positions_that_were_rounded_in_print(tmp_path: Path, spacing: float, digits: int) -> None:
+def test_positions_that_were_rounded_in_print(tmp_path, spacing, digits):
     positions = np.round(spacing * np.arange(400), digits)
     rows = "".join(f"{x:.10g},{np.sin(x):.5f},,\n" for x in positions)
     scan = _read(tmp_path / "scan.csv", DEKTAK + rows)
@@ -175,14 +171,14 @@ def test_positions_that_were_rounded_in_print(tmp_path: Path, spacing: float, di
         np.delete(np.round(0.15625 * np.arange(400), 1), 200),
     ],
 )
-def test_positions_that_are_not_equally_spaced(tmp_path: Path, positions: list[float]) -> None:
+def test_positions_that_are_not_equally_spaced(tmp_path, positions):
     path = tmp_path / "scan.csv"
     with pytest.raises(InvalidInput) as caught:
         _read(path, DEKTAK + "".join(f"{x:.10g},1.0,,\n" for x in positions))
     assert caught.value.allowed == "equally spaced"
 
 
-def test_matrix_with_a_header_that_states_unit_and_size(tmp_path: Path) -> None:
+def test_matrix_with_a_header_that_states_unit_and_size(tmp_path):
     path = tmp_path / "scan.txt"
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -4,7 +4,6 @@ import io
 import os
 import sys
 import zipfile
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,18 +16,18 @@ DEKTAK = "Scan Parameters\n\nScan Data\n\nLateral um,Raw Micrometer,\n"
 PROFILE = DEKTAK + "0.0,1.0,,\n0.2,2.0,,\n0.4,1.0,,\n"
 
 
-def npy(array: object) -> bytes:
+def npy(array):
     out = io.BytesIO()
     np.save(out, np.asarray(array), allow_pickle=True)
     return out.getvalue()
 
 
-def huge(content: bytes) -> bytes:
+def huge(content):
     """A header that promises 2^64 numbers."""
     return content.replace(b"(2, 3), }" + b" " * 19, b"(4294967296, 4294967296), } ", 1)
 
 
-def npz(*arrays: bytes) -> bytes:
+def npz(*arrays):
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w") as archive:
         for i, content in enumerate(arrays):
@@ -36,9 +35,9 @@ def npz(*arrays: bytes) -> bytes:
     return out.getvalue()
 
 
-def refused(path: Path | str, **given: object) -> InvalidInput:
+def refused(path, **given):
     with pytest.raises(InvalidInput) as caught:
-        read_surface(path, **given)  # type: ignore[arg-type]
+        read_surface(path, **given)
     assert str(caught.value).startswith(f"{path}: ")
     assert "\n" not in str(caught.value)
     return caught.value
@@ -71,7 +70,7 @@ DAMAGED = {
 
 
 @pytest.mark.parametrize("case", DAMAGED)
-def test_damaged_files(tmp_path: Path, case: str) -> None:
+def test_damaged_files(tmp_path, case):
     name, content = DAMAGED[case]
     (tmp_path / name).write_bytes(content)
     error = refused(tmp_path / name, pixel_size=1.0, unit="m")
@@ -102,9 +101,7 @@ def test_damaged_files(tmp_path: Path, case: str) -> None:
     ],
     ids=lambda one: one if isinstance(one, str) else type(one).__name__,
 )
-def test_what_is_stated_of_them(
-    tmp_path: Path, argument: str, content: bytes, given: dict[str, object]
-) -> None:
+def test_what_is_stated_of_them(tmp_path, argument, content, given):
     kinds = {b"\x93N": "a.npy", b"PK": "a.npz"}
     path = tmp_path / kinds.get(content[:2], "a.csv")
     path.write_bytes(content)
@@ -113,9 +110,7 @@ def test_what_is_stated_of_them(
 
 @pytest.mark.parametrize("given", [{"unit": "nm"}, {"pixel_size": 1e-6}, {"channel": 1}])
 @pytest.mark.parametrize(("name", "text"), [("a.asc", GWYDDION), ("a.csv", PROFILE)])
-def test_what_the_file_of_an_instrument_states_is_not_overridden(
-    tmp_path: Path, name: str, text: str, given: dict[str, object]
-) -> None:
+def test_what_the_file_of_an_instrument_states_is_not_overridden(tmp_path, name, text, given):
     pytest.importorskip("SurfaceTopography")
     (tmp_path / name).write_text(text, encoding="utf-8")
     error = refused(tmp_path / name, **given)
@@ -125,30 +120,26 @@ def test_what_the_file_of_an_instrument_states_is_not_overridden(
 @pytest.mark.parametrize(
     "content", [b"", bytes(300), b"a tale\nof two cities\n", (DEKTAK + "0,1\n0,2\n").encode()]
 )
-def test_files_of_no_instrument(tmp_path: Path, content: bytes) -> None:
+def test_files_of_no_instrument(tmp_path, content):
     pytest.importorskip("SurfaceTopography")
     (tmp_path / "scan.dat").write_bytes(content)
     refused(tmp_path / "scan.dat")
 
 
 @pytest.mark.parametrize("name", ["missing.npy", "missing.opd", ".", "pipe.csv", "/dev/zero"])
-def test_what_is_no_file_is_not_waited_for(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
+def test_what_is_no_file_is_not_waited_for(tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
     os.mkfifo("pipe.csv")
     assert "cannot be read: " in str(refused(name, pixel_size=1.0, unit="m"))
 
 
-def test_no_name_of_a_file() -> None:
+def test_no_name_of_a_file():
     with pytest.raises(InvalidInput, match="cannot be read: embedded null"):
         read_surface("a\0b.npy", pixel_size=1.0, unit="m")
 
 
 @pytest.mark.parametrize(("name", "text"), [("a.opd", "any"), ("a.csv", PROFILE)])
-def test_without_surface_topography_it_is_said_what_to_install(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str, text: str
-) -> None:
+def test_without_surface_topography_it_is_said_what_to_install(tmp_path, monkeypatch, name, text):
     for module in [m for m in sys.modules if m.partition(".")[0] == "SurfaceTopography"]:
         monkeypatch.delitem(sys.modules, module)
     monkeypatch.setitem(sys.modules, "SurfaceTopography", None)

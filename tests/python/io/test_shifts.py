@@ -30,9 +30,7 @@ RUBBER = prony(3e6, 10 ** np.linspace(6, 9, 8), 10 ** np.linspace(2, -8, 8))
         ("Temperature (K),a_T", 273.15, 10**SHIFTS),
     ],
 )
-def test_names_and_units_of_other_programs(
-    tmp_path: Path, head: str, kelvin: float, shown: np.ndarray
-) -> None:
+def test_names_and_units_of_other_programs(tmp_path, head, kelvin, shown):
     rows = [f"{t + kelvin},{a:.17g}" for t, a in zip(CELSIUS, shown, strict=True)]
     (tmp_path / "a.csv").write_text("\n".join([head, *rows]), encoding="utf-8")
     result = read_shift_factors(tmp_path / "a.csv", reference_temperature=293.15)
@@ -40,7 +38,7 @@ def test_names_and_units_of_other_programs(
     np.testing.assert_allclose(result.log10_a_T, SHIFTS[::-1], atol=1e-12)
 
 
-def test_a_table_of_another_reference_is_taken_relative_to_it(tmp_path: Path) -> None:
+def test_a_table_of_another_reference_is_taken_relative_to_it(tmp_path):
     rows = [f"{t},{a}" for t, a in zip(CELSIUS, SHIFTS, strict=True)]
     (tmp_path / "a.csv").write_text("\n".join(["T,log_aT", "C,-", *rows]))
     with plausible.collected() as notes:
@@ -57,14 +55,14 @@ def test_a_table_of_another_reference_is_taken_relative_to_it(tmp_path: Path) ->
         ("T,tan_delta\n300,1\n", "no line names the columns"),
     ],
 )
-def test_what_is_not_known_is_asked_for(tmp_path: Path, text: str, message: str) -> None:
+def test_what_is_not_known_is_asked_for(tmp_path, text, message):
     (tmp_path / "a.csv").write_text(text)
     with pytest.raises(InvalidInput, match=message):
         read_shift_factors(tmp_path / "a.csv", reference_temperature=300.0)
 
 
 @pytest.fixture
-def sweeps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def sweeps(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     lines = ["f,T,E1,E2"]
     for celsius in range(0, 41, 10):
@@ -77,9 +75,7 @@ def sweeps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return ["rubber", "dma.csv", *columns, *units]
 
 
-def test_whatever_the_verb_writes_is_read_as_shifts(
-    sweeps: list[str], capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_whatever_the_verb_writes_is_read_as_shifts(sweeps, capsys):
     assert main([*sweeps, "--output", "a.csv", "--write-shift", "b.csv"]) == 0
     assert main([*sweeps, "--output", "a.json", "--json"]) == 0
     read = [
@@ -95,13 +91,13 @@ def test_whatever_the_verb_writes_is_read_as_shifts(
     assert "every output must be a file of its own" in capsys.readouterr().err
 
 
-def modulus(instantaneous: float, pairs: list[tuple[float, float]], w: float) -> complex:
+def modulus(instantaneous, pairs, w):
     """E(w) from relative moduli, by definition."""
     relaxed = sum(g / (1 + 1j * w * tau) for g, tau in pairs)
     return instantaneous * (1 - relaxed)
 
 
-def test_prony_terms_are_written_for_other_programs(sweeps: list[str]) -> None:
+def test_prony_terms_are_written_for_other_programs(sweeps):
     for name, ratio in (("p.csv", "0.5"), ("p.inp", "0.49"), ("p.mac", "0.49")):
         output = ["--output", "a.csv", "--write-prony", name]
         assert main([*sweeps, *output, "--poisson-ratio", ratio]) == 0
@@ -144,9 +140,7 @@ def test_prony_terms_are_written_for_other_programs(sweeps: list[str]) -> None:
         (LIQUID, "abaqus", 0.5, "series"),
     ],
 )
-def test_what_a_program_cannot_take(
-    series: asperity.PronySeries, program: str, ratio: float, argument: str
-) -> None:
+def test_what_a_program_cannot_take(series, program, ratio, argument):
     with pytest.raises(InvalidInput) as caught:
-        prony_input(series, program, poisson_ratio=ratio)  # type: ignore[arg-type]
+        prony_input(series, program, poisson_ratio=ratio)
     assert caught.value.argument == argument

@@ -1,7 +1,5 @@
 """Numbers in messages as they were typed, from options and from scenes."""
 
-from pathlib import Path
-
 import pytest
 
 from asperity import InvalidInput
@@ -19,7 +17,7 @@ from helpers.scenes import SCENE
         ("8.3e6", "-7.00e-99", "[adhesion] shear_stress_pa = -7.00e-99: "),
     ],
 )
-def test_scenes(folder: Path, old: str, new: str, typed: str) -> None:
+def test_scenes(folder, old, new, typed):
     path = folder / "wrong.toml"
     path.write_text(SCENE.replace(old, new))
     with pytest.raises(InvalidInput) as error:
@@ -39,8 +37,6 @@ def test_scenes(folder: Path, old: str, new: str, typed: str) -> None:
         ("[a] b", 1.0, {"[a] b": 10**400}, "shown"),
     ],
 )
-def test_numbers_are_as_they_were_typed(
-    name: str, value: float, given: dict[str, object], typed: str
-) -> None:
+def test_numbers_are_as_they_were_typed(name, value, given, typed):
     sentence = (Argument(name), " = ", Value("shown", (value,)), ": no")
     assert "".join(as_typed(sentence, given)) == f"{name} = {typed}: no"

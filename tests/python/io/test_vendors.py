@@ -1,6 +1,5 @@
 """DMA in the layouts of three vendors' programs, and temperature ramps."""
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,17 +18,17 @@ HERTZ = np.geomspace(0.1, 50, 9)
 CELSIUS = (0, 10, 20, 30)
 
 
-def modulus(hertz: float, celsius: float) -> complex:
+def modulus(hertz, celsius):
     a_t = 10 ** LAW.log10_a_T(celsius + 273.15)
     return complex(RUBBER.modulus(2 * np.pi * hertz * a_t))
 
 
-def read(path: Path, **given: Any) -> list[asperity.Isotherm]:
+def read(path, **given):
     units = {"frequency": "Hz", "temperature": "C", "modulus": "MPa", **given.pop("units", {})}
     return read_isotherms(path, units=units, modulus="E", **given)
 
 
-def check(isotherms: list[asperity.Isotherm], factor: float = 1) -> None:
+def check(isotherms, factor=1):
     kelvin = [one.temperature for one in isotherms]
     np.testing.assert_allclose(kelvin, np.add(CELSIUS, 273.15), rtol=1e-12)
     for one, celsius in zip(isotherms, CELSIUS, strict=True):
@@ -39,7 +38,7 @@ def check(isotherms: list[asperity.Isotherm], factor: float = 1) -> None:
         np.testing.assert_allclose(one.loss_modulus, e.imag, rtol=1e-4)
 
 
-def trios(mark: str) -> str:
+def trios(mark):
     """Facts in pairs, then a block for each step of the test: a strain sweep, ramps, sweeps."""
     lines = [mark.join(pair) for pair in (("Filename", "tread"), ("Operator", "N. N."))]
     names = ["Angular frequency", "Temperature", "Storage modulus", "Loss modulus", "Tan(delta)"]
@@ -67,7 +66,7 @@ def trios(mark: str) -> str:
 
 
 @pytest.mark.parametrize("mark", ["\t", ","])
-def test_steps_of_trios(tmp_path: Path, mark: str) -> None:
+def test_steps_of_trios(tmp_path, mark):
     (tmp_path / "a.txt").write_text(trios(mark), encoding="utf-8")
     columns = {"frequency": "Angular frequency", "temperature": "Temperature"}
     columns |= {"storage": "Storage modulus", "loss": "Loss modulus"}
@@ -78,7 +77,7 @@ def test_steps_of_trios(tmp_path: Path, mark: str) -> None:
         read(tmp_path / "a.txt", columns=columns)
 
 
-def test_intervals_of_rheocompass(tmp_path: Path) -> None:
+def test_intervals_of_rheocompass(tmp_path):
     """UTF-16, decimal commas, units two lines below the names, rows that begin with a tab."""
     lines = ["Project:\ttread", "", "Interval and data points:\t5"]
     names = ["Interval data:", "Point No.", "Frequency", "Shear Rate", "Storage Modulus"]
@@ -107,7 +106,7 @@ def test_intervals_of_rheocompass(tmp_path: Path) -> None:
     check(read(tmp_path / "a.csv", columns=columns))
 
 
-def test_sheets_of_eplexor(tmp_path: Path) -> None:
+def test_sheets_of_eplexor(tmp_path):
     """A sheet of shifts, one of data with a line of units, one of settings."""
     book = pytest.importorskip("xlwt").Workbook()
     data = [["Nr", "f", "T", "E'", "E''"], ["", "Hz", "°C", "MPa", "MPa"]]
@@ -132,7 +131,7 @@ def test_sheets_of_eplexor(tmp_path: Path) -> None:
 COLUMNS = {"frequency": "f", "temperature": "T", "storage": "E1", "loss": "E2"}
 
 
-def ramp(path: Path, hertz: tuple[float, ...], noise: float, coldest: float = -20) -> Path:
+def ramp(path, hertz, noise, coldest=-20):
     rng = np.random.default_rng(1)
     rows = []
     for at, celsius in enumerate(np.arange(coldest, 50, 0.25)):
@@ -147,7 +146,7 @@ def ramp(path: Path, hertz: tuple[float, ...], noise: float, coldest: float = -2
 @pytest.mark.parametrize(
     "hertz", [(0.5, 1, 2, 5, 10, 20), (1, 3, 10, 30), (0.1, 1, 10, 100), (1, 10, 100), (10, 1)]
 )
-def test_a_ramp_at_several_frequencies_is_shifted(tmp_path: Path, hertz: tuple[float, ...]) -> None:
+def test_a_ramp_at_several_frequencies_is_shifted(tmp_path, hertz):
     isotherms = read(ramp(tmp_path / "a.csv", hertz, 0.01), columns=COLUMNS)
     build = asperity.build_master_curve(isotherms, reference_temperature=293.15)
     off = build.log10_a_T - LAW.log10_a_T(build.temperature)
@@ -156,7 +155,7 @@ def test_a_ramp_at_several_frequencies_is_shifted(tmp_path: Path, hertz: tuple[f
     np.testing.assert_allclose(build.master_curve.modulus(w), RUBBER.modulus(w), rtol=0.05)
 
 
-def test_a_glass_that_tells_no_shift_is_cut_off(tmp_path: Path) -> None:
+def test_a_glass_that_tells_no_shift_is_cut_off(tmp_path):
     path = ramp(tmp_path / "a.csv", (10, 1), 0.01, coldest=-50)
     with plausible.collected() as notes:
         isotherms = read(path, columns=COLUMNS)
@@ -167,7 +166,7 @@ def test_a_glass_that_tells_no_shift_is_cut_off(tmp_path: Path) -> None:
     assert np.abs(off).max() < 0.08
 
 
-def test_a_ramp_at_one_frequency_is_named_as_one(tmp_path: Path) -> None:
+def test_a_ramp_at_one_frequency_is_named_as_one(tmp_path):
     with pytest.raises(InvalidInput, match="is a temperature ramp at 10 Hz alone") as caught:
         read(ramp(tmp_path / "a.csv", (10.0,), 0.01), columns=COLUMNS)
     assert caught.value.code == "temperature-ramp"
@@ -187,9 +186,7 @@ temperature_c = 30
 
 
 @pytest.mark.parametrize("hertz", [(10.0,), (1, 10, 100)])
-def test_a_ramp_whose_shift_is_known_is_a_master_curve(
-    tmp_path: Path, hertz: tuple[float, ...]
-) -> None:
+def test_a_ramp_whose_shift_is_known_is_a_master_curve(tmp_path, hertz):
     ramp(tmp_path / "a.csv", hertz, 0.01)
     units = {"frequency": "Hz", "temperature": "C", "modulus": "MPa"}
     how: dict[str, Any] = {"columns": COLUMNS, "units": units, "modulus": "E"}

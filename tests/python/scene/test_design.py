@@ -87,7 +87,7 @@ def test_heat_has_its_parts(scene):
     heating = "density_kg_m3 = 1e3\nheat_capacity_j_kg_k = 2e3\nconductivity_w_m_k = 0.2\n"
     text = SCENE + "[heating]\n" + heating + "contact_diameter_m = 1e-3\n[solver]\nrtol = 1e-9\n"
 
-    def mu(spot: str) -> float:
+    def mu(spot):
         scene.write_text(text.replace("1e-3\n", spot + "\n"))
         return float(load_scene(scene, for_friction=True).friction().mu[0, 0])
 

@@ -1,7 +1,6 @@
 """Scenes that know directions: what they build, their column, and what they refuse."""
 
 from contextlib import nullcontext
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,7 @@ TURNED = CONDITIONS + "direction_deg = 75\n"
 
 
 @pytest.fixture
-def ridged(tmp_path: Path) -> Path:
+def ridged(tmp_path):
     """A folder with a scan of ridges."""
     law = asperity.SelfAffineSpectrum(
         rms_height=5e-6, hurst=0.8, q0=2e4, q1=1e5, axis_ratio=3.0, lay=0.4
@@ -29,12 +28,12 @@ def ridged(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def written(folder: Path, text: str) -> Path:
+def written(folder, text):
     (folder / "scene.toml").write_text(text)
     return folder / "scene.toml"
 
 
-def test_friction_is_that_of_the_core_in_radians(tmp_path: Path) -> None:
+def test_friction_is_that_of_the_core_in_radians(tmp_path):
     scene = load_scene(written(tmp_path, RIDGES + RUBBER + TURNED), for_friction=True)
     assert isinstance(scene.spectrum, asperity.SelfAffineSpectrum)
     assert (scene.spectrum.axis_ratio, scene.spectrum.lay) == (2.0, np.radians(30))
@@ -51,7 +50,7 @@ def test_friction_is_that_of_the_core_in_radians(tmp_path: Path) -> None:
     assert np.all(result.lateral != 0)
 
 
-def test_the_table_ends_with_the_force_across(tmp_path: Path) -> None:
+def test_the_table_ends_with_the_force_across(tmp_path):
     path = written(tmp_path, RIDGES + RUBBER + TURNED)
     assert main(["friction", str(path), "--output", str(tmp_path / "out.csv")]) == 0
     lines = (tmp_path / "out.csv").read_text().splitlines()
@@ -69,7 +68,7 @@ def test_the_table_ends_with_the_force_across(tmp_path: Path) -> None:
     assert "lateral" not in (tmp_path / "plain.csv").read_text()
 
 
-def test_a_scan_keeps_its_directions_where_it_is_asked_to(ridged: Path) -> None:
+def test_a_scan_keeps_its_directions_where_it_is_asked_to(ridged):
     scan = SCAN + "window = 'none'\ndetrend = 'none'\n"
     plain = load_scene(written(ridged, scan + RUBBER + CONDITIONS))
     kept = load_scene(written(ridged, scan + "directional = true\n" + RUBBER + TURNED))
@@ -88,24 +87,20 @@ def test_a_scan_keeps_its_directions_where_it_is_asked_to(ridged: Path) -> None:
         (RIDGES, CONDITIONS + "direction_deg = 'x'\n", "[conditions] direction_deg"),
     ],
 )
-def test_what_has_no_direction_is_refused(
-    ridged: Path, surface: str, conditions: str, argument: str
-) -> None:
+def test_what_has_no_direction_is_refused(ridged, surface, conditions, argument):
     with pytest.raises(InvalidInput) as caught:
         load_scene(written(ridged, surface + RUBBER + conditions))
     assert argument in str(caught.value)
 
 
-def test_a_line_scan_has_no_directions(tmp_path: Path) -> None:
+def test_a_line_scan_has_no_directions(tmp_path):
     np.save(tmp_path / "scan.npy", np.sin(0.3 * np.arange(200.0)))
     surface = SCAN.replace("[2e-5, 1e-5]", "1e-5") + "directional = true\n"
     with pytest.raises(InvalidInput, match="line scan"):
         load_scene(written(tmp_path, surface + RUBBER + CONDITIONS))
 
 
-def test_directions_over_velocity_are_one_entry_each(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_directions_over_velocity_are_one_entry_each(tmp_path, monkeypatch):
     pytest.importorskip("matplotlib")
     from asperity.plot import friction
 
@@ -120,7 +115,7 @@ def test_directions_over_velocity_are_one_entry_each(
     assert texts[:3] == ["200 kPa", "0°", "60°"]
 
 
-def test_a_list_of_directions_is_a_table_and_a_polar_picture(tmp_path: Path) -> None:
+def test_a_list_of_directions_is_a_table_and_a_polar_picture(tmp_path):
     pytest.importorskip("matplotlib")
     around = CONDITIONS + "direction_deg = {from = 0, to = 90, points = 4}\n"
     path = written(tmp_path, RIDGES + RUBBER + around)
@@ -142,8 +137,8 @@ def test_a_list_of_directions_is_a_table_and_a_polar_picture(tmp_path: Path) -> 
         load_scene(path)
     steps: dict[str, int] = {}
 
-    def bar(title: str) -> Any:
-        def shown(chunks: list[slice]) -> Any:
+    def bar(title):
+        def shown(chunks):
             steps[title] = len(chunks)
             return nullcontext(chunks)
 
@@ -153,7 +148,7 @@ def test_a_list_of_directions_is_a_table_and_a_polar_picture(tmp_path: Path) -> 
     assert steps == {str(path): 4}  # a direction may take less than a bar waits
 
 
-def test_a_band_is_that_of_the_direction(ridged: Path) -> None:
+def test_a_band_is_that_of_the_direction(ridged):
     scan = SCAN + "directional = true\n"
     text = scan + RUBBER + TURNED + "[uncertainty]\nsamples = 20\nseed = 3\n"
     scene = load_scene(written(ridged, text), for_friction=True)
@@ -167,7 +162,7 @@ def test_a_band_is_that_of_the_direction(ridged: Path) -> None:
 
 
 @pytest.mark.parametrize("typed", ["", "direction_deg = 0\n"])
-def test_sliding_along_x_is_noted_where_no_direction_is_typed(tmp_path: Path, typed: str) -> None:
+def test_sliding_along_x_is_noted_where_no_direction_is_typed(tmp_path, typed):
     path = written(tmp_path, RIDGES + RUBBER + CONDITIONS + typed)
     scene = load_scene(path, for_friction=True)
     for notes in (scene.friction().notes, scene.contact_notes()):

@@ -9,7 +9,6 @@ import pytest
 import asperity
 from asperity.io.read_friction import MeasuredFriction
 from asperity.scene.experiment import Experiment
-from asperity.scene.model import Scene
 from asperity.scene.scene import load_scene
 
 SCENE = """
@@ -28,7 +27,7 @@ velocity_m_s = [1e-5, 1e-3]
 
 
 @pytest.fixture
-def scene(tmp_path: Path) -> Scene:
+def scene(tmp_path):
     surface = asperity.SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2e4, q1=3e5)
     heights = asperity.synthesize(surface, shape=(200, 240), pixel_size=1e-5, seed=4).heights
     np.save(tmp_path / "scan.npy", heights)
@@ -36,7 +35,7 @@ def scene(tmp_path: Path) -> Scene:
     return load_scene(tmp_path / "scene.toml")
 
 
-def test_the_scatter_of_the_points_is_in_the_band_beside_the_surfaces_errors(scene: Scene) -> None:
+def test_the_scatter_of_the_points_is_in_the_band_beside_the_surfaces_errors(scene):
     velocity = np.repeat(np.geomspace(1e-6, 1, 15), 3)
     truth = asperity.Adhesion(shear_stress=8.3e6)
     mu = asperity.friction(

@@ -1,8 +1,5 @@
 """Scenes of a scan and of isotherms: what a user's own files need before there is a curve."""
 
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 import pytest
 
@@ -36,7 +33,7 @@ FITTED = scenes.SCAN + 'fit = "self-affine"\nq0_per_m = 5000.0\nq1_per_m = 8e4\n
 
 
 @pytest.fixture
-def dma(tmp_path: Path) -> Path:
+def dma(tmp_path):
     """A folder with a sweep a temperature, 1 % of noise on every modulus."""
     noise = np.random.default_rng(4)
     (tmp_path / "dma").mkdir()
@@ -50,23 +47,23 @@ def dma(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def loaded(folder: Path, text: str, surface: str = scenes.SURFACE, **how: Any) -> Any:
+def loaded(folder, text, surface=scenes.SURFACE, **how):
     (folder / "scene.toml").write_text(surface + text)
     return load_scene(folder / "scene.toml", **how)
 
 
-def known(folder: Path) -> tuple[float, float]:
+def known(folder):
     """Velocities [m/s] from which to which the measured modulus reaches."""
     scene = loaded(folder, SCENE)
     low, high = scene.rubber.angular_frequency[[0, -1]]
     return float(low / scene.spectrum.q0), float(high / scene.spectrum.q1)
 
 
-def swept(text: str, slowest: float, fastest: float) -> str:
+def swept(text, slowest, fastest):
     return text.replace("from = 1e-4, to = 1e-3", f"from = {slowest!r}, to = {fastest!r}")
 
 
-def test_a_pattern_stands_for_files(dma: Path) -> None:
+def test_a_pattern_stands_for_files(dma):
     names = [f"dma/T{celsius:02d}.csv" for celsius in CELSIUS]
     by_pattern = loaded(dma, SCENE)
     assert by_pattern.inputs["rubber"]["isotherms"] == names
@@ -82,7 +79,7 @@ def test_a_pattern_stands_for_files(dma: Path) -> None:
     np.testing.assert_array_equal(mu, in_brackets.friction().mu)
 
 
-def test_notes_say_where_the_modulus_is_extrapolated(dma: Path) -> None:
+def test_notes_say_where_the_modulus_is_extrapolated(dma):
     _, fastest = known(dma)
     beyond = SCENE.replace("[conditions]", 'extrapolation = "power-law"\n[conditions]')
     result = loaded(dma, swept(beyond, 3 * fastest, 9.9 * fastest)).friction()
@@ -112,16 +109,14 @@ def test_notes_say_where_the_modulus_is_extrapolated(dma: Path) -> None:
         ),
     ],
 )
-def test_a_temperature_beyond_the_isotherms_is_out_of_range(
-    dma: Path, text: str, argument: str
-) -> None:
+def test_a_temperature_beyond_the_isotherms_is_out_of_range(dma, text, argument):
     with pytest.raises(OutOfRange) as caught:
         loaded(dma, text)
     assert caught.value.argument == argument
     assert "wlf_c1 and wlf_c2_k, which asperity rubber gives" in str(caught.value)
 
 
-def test_heat_starts_from_the_rubbers_temperature(dma: Path) -> None:
+def test_heat_starts_from_the_rubbers_temperature(dma):
     """It may stand in [rubber], beside isotherms, or in [conditions]."""
     there = loaded(dma, SCENE + HEATING, for_friction=True)
     moved = SCENE.replace("temperature_c = 20\n", "") + "temperature_c = 20\n" + HEATING
@@ -130,7 +125,7 @@ def test_heat_starts_from_the_rubbers_temperature(dma: Path) -> None:
     np.testing.assert_array_equal(there.friction().mu, here.friction().mu)
 
 
-def test_a_scan_too_small_for_its_spectrum_is_fatal(dma: Path) -> None:
+def test_a_scan_too_small_for_its_spectrum_is_fatal(dma):
     """Most of the slope is then of waves of which it holds fewer than 16."""
     road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=500, q1=1e5)
     scan = asperity.synthesize(road, shape=(256, 256), pixel_size=5e-5, seed=2)
@@ -138,7 +133,7 @@ def test_a_scan_too_small_for_its_spectrum_is_fatal(dma: Path) -> None:
     surface = '[surface]\nfile = "scan.npy"\npixel_size_m = 5e-5\nunit = "m"\nq1_per_m = {}\n'
     slow = SCENE.replace("from = 1e-4, to = 1e-3", "from = 1e-3, to = 1e-2")
 
-    def fatal(q1: float) -> list[str]:
+    def fatal(q1):
         notes = loaded(dma, slow, surface.format(q1)).friction().notes
         return [
             note for note in notes if note.startswith("fatal: more than half of the mean square")
@@ -149,7 +144,7 @@ def test_a_scan_too_small_for_its_spectrum_is_fatal(dma: Path) -> None:
     assert fatal(4 * few) == []
 
 
-def test_noise_that_the_spectrum_reaches_into_is_noted(dma: Path) -> None:
+def test_noise_that_the_spectrum_reaches_into_is_noted(dma):
     road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=500, q1=6e4)
     scan = asperity.synthesize(road, shape=(256, 256), pixel_size=5e-5, seed=2)
     noise = 1e-5 * np.random.default_rng(2).normal(size=(256, 256))
@@ -162,7 +157,7 @@ def test_noise_that_the_spectrum_reaches_into_is_noted(dma: Path) -> None:
     assert not any("noise of the instrument" in one for one in loaded(dma, slow, cut).notes)
 
 
-def test_notes_with_heat_are_of_the_rubber_as_it_then_is(dma: Path) -> None:
+def test_notes_with_heat_are_of_the_rubber_as_it_then_is(dma):
     """Heat takes v q a_T to where the modulus was measured."""
     _, fastest = known(dma)
     text = SCENE.replace("temperature_c = 20", 'extrapolation = "power-law"\ntemperature_c = 20')
@@ -173,7 +168,7 @@ def test_notes_with_heat_are_of_the_rubber_as_it_then_is(dma: Path) -> None:
         assert len(told) == (result.extrapolated_share.max() > 0.05)
 
 
-def test_a_comparison_has_the_notes_of_the_scene_once_in_its_unit(dma: Path) -> None:
+def test_a_comparison_has_the_notes_of_the_scene_once_in_its_unit(dma):
     """A rubber carries its notes into results, which know nothing of degrees C."""
     for k, celsius in enumerate(CELSIUS):  # E'' shifts by itself
         hertz, rise = np.geomspace(0.1, 50, 12), np.geomspace(1, 3, 12)
@@ -188,7 +183,7 @@ def test_a_comparison_has_the_notes_of_the_scene_once_in_its_unit(dma: Path) -> 
 
 
 @pytest.mark.parametrize("surface", [scenes.SURFACE, FITTED])
-def test_a_linear_band_is_about_that_of_draws(dma: Path, surface: str) -> None:
+def test_a_linear_band_is_about_that_of_draws(dma, surface):
     if "scan" in surface:
         law = asperity.SelfAffineSpectrum(rms_height=76e-6, hurst=0.7, q0=5000.0, q1=1e5)
         rough = asperity.synthesize(law, shape=(512, 1024), pixel_size=(2e-5, 1e-5), seed=1)
@@ -196,7 +191,7 @@ def test_a_linear_band_is_about_that_of_draws(dma: Path, surface: str) -> None:
     slow, _ = known(dma)
     text = swept(SCENE, slow * 10, slow * 1e3)
 
-    def widths(method: str) -> Any:
+    def widths(method):
         asked = f'[uncertainty]\nmethod = "{method}"\nsamples = 200\n'
         scene = loaded(dma, text + asked, surface)
         low, high, _ = scene.band(np.ones((1, scene.velocity.size)))
@@ -206,7 +201,7 @@ def test_a_linear_band_is_about_that_of_draws(dma: Path, surface: str) -> None:
     np.testing.assert_allclose(widths("linear"), widths("draws"), rtol=0.25)
 
 
-def test_a_linear_band_is_refused_where_the_rubber_is_drawn_otherwise(dma: Path) -> None:
+def test_a_linear_band_is_refused_where_the_rubber_is_drawn_otherwise(dma):
     asked = '[uncertainty]\nmethod = "linear"\n'
     text = SCENE.replace("temperature_c", "prony = true\ntemperature_c")
     scene = loaded(dma, text + asked)

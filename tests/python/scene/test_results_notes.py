@@ -7,22 +7,22 @@ from asperity.base.diagnostics import Note
 from asperity.scene.results import notes_of_all
 
 
-def note(text: str) -> Note:
+def note(text):
     """One whose code is its first words."""
     return Note(text, code="-".join(text.split()[:2]))
 
 
-def told(*said: tuple[str, str, list[str], list[str]]) -> list[str]:
+def told(*said):
     """What is told of scenes, each a file, a temperature, notes of its inputs and of its curve."""
     scenes = [
         SimpleNamespace(path=Path(file), notes=[*map(note, inputs)], place_text=at)
         for file, at, inputs, _ in said
     ]
     curves = [SimpleNamespace(notes=[*map(note, [*one, *more])]) for _, _, one, more in said]
-    return notes_of_all(scenes, curves)  # type: ignore[arg-type]
+    return notes_of_all(scenes, curves)
 
 
-def test_notes_of_inputs_are_told_once_whatever_their_numbers() -> None:
+def test_notes_of_inputs_are_told_once_whatever_their_numbers():
     assert told(
         ("a.toml", "5 °C", ["off by 0.3 at 300 K"], []),
         ("a.toml", "20 °C", ["off by -1.4e-2 at 310 K"], []),
@@ -33,7 +33,7 @@ def test_notes_of_inputs_are_told_once_whatever_their_numbers() -> None:
     ]
 
 
-def test_notes_of_curves_are_told_with_all_their_numbers() -> None:
+def test_notes_of_curves_are_told_with_all_their_numbers():
     assert told(
         ("a.toml", "5 °C", ["rough"], ["guessed from 1 m/s"]),
         ("a.toml", "20 °C", ["rough"], ["guessed from 2 m/s", "no contact"]),
@@ -45,7 +45,7 @@ def test_notes_of_curves_are_told_with_all_their_numbers() -> None:
     ]
 
 
-def test_notes_of_several_files_name_them() -> None:
+def test_notes_of_several_files_name_them():
     assert told(
         ("a.toml", "5 °C", ["off by 1", "smooth"], []),
         ("a.toml", "20 °C", ["off by 2"], []),

@@ -1,8 +1,6 @@
 """Scene files: what they build."""
 
 from contextlib import nullcontext
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -17,13 +15,13 @@ PRONY = prony(2e6, [1e9, 1e8, 1e7], [1e-8, 1e-6, 1e-4])
 SPECTRUM = asperity.SelfAffineSpectrum(rms_height=76.572e-6, hurst=0.7, q0=2000.0, q1=1e5)
 
 
-def scan() -> asperity.HeightMap:
+def scan():
     spectrum = asperity.SelfAffineSpectrum(rms_height=5e-6, hurst=0.8, q0=2e4, q1=1e6)
     return asperity.synthesize(spectrum, shape=(60, 80), pixel_size=(2e-5, 1e-5), seed=1)
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     """A folder with a tilted scan and a master curve."""
     heights = np.array(scan().heights) + 1e-5 * np.linspace(0, 1, 80)
     np.save(tmp_path / "scan.npy", heights * 1e6)
@@ -37,13 +35,13 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def write(folder: Path, text: str) -> Path:
+def write(folder, text):
     path = folder / "scene.toml"
     path.write_text(text, encoding="utf-8")
     return path
 
 
-def test_parts_are_those_named(folder: Path) -> None:
+def test_parts_are_those_named(folder):
     scene = load_scene(write(folder, SURFACE + RUBBER + CONDITIONS))
     assert scene.spectrum == SPECTRUM
     assert scene.rubber == PRONY
@@ -54,7 +52,7 @@ def test_parts_are_those_named(folder: Path) -> None:
     assert scene.adhesion is None
 
 
-def test_friction_is_that_of_the_core_with_its_defaults(folder: Path) -> None:
+def test_friction_is_that_of_the_core_with_its_defaults(folder):
     text = SURFACE + RUBBER + CONDITIONS.replace("points = 5", "points = 11")
     scene = load_scene(write(folder, text))
     curves = scene.friction()
@@ -70,7 +68,7 @@ def test_friction_is_that_of_the_core_with_its_defaults(folder: Path) -> None:
     assert {name: recorded[name] for name in defaults} == defaults
 
 
-def test_everything_named_reaches_the_core(folder: Path) -> None:
+def test_everything_named_reaches_the_core(folder):
     text = (
         SURFACE
         + "rolloff_per_m = 4000.0\n"
@@ -100,7 +98,7 @@ def test_everything_named_reaches_the_core(folder: Path) -> None:
     assert np.all(curves.adhesion > 0)
 
 
-def test_scan_is_measured_as_by_hand(folder: Path) -> None:
+def test_scan_is_measured_as_by_hand(folder):
     text = SCAN + "window = 'hann'\ndetrend = 'quadratic'\nq0_per_m = 1.5e4\nq1_per_m = 2e5\n"
     scene = load_scene(write(folder, text + RUBBER + CONDITIONS))
     surface = asperity.read_surface(folder / "scan.npy", pixel_size=(2e-5, 1e-5), unit="um")
@@ -110,8 +108,8 @@ def test_scan_is_measured_as_by_hand(folder: Path) -> None:
     assert scene.derived["pixel_size_m"] == [2e-5, 1e-5]
 
 
-def test_smaller_cutoff_wins(folder: Path) -> None:
-    def q1(keys: str) -> float:
+def test_smaller_cutoff_wins(folder):
+    def q1(keys):
         return load_scene(write(folder, SURFACE + keys + RUBBER + CONDITIONS)).spectrum.q1
 
     by_slope, by_size = SPECTRUM.cutoff_for_slope(1.0), 2 * np.pi / 2e-4
@@ -121,7 +119,7 @@ def test_smaller_cutoff_wins(folder: Path) -> None:
     assert both == pytest.approx(min(by_slope, by_size))
 
 
-def test_master_curve(folder: Path) -> None:
+def test_master_curve(folder):
     scene = load_scene(write(folder, SURFACE + CURVE + "extrapolation = 'clamp'\n" + CONDITIONS))
     assert isinstance(scene.rubber, asperity.MasterCurve)
     assert scene.rubber.extrapolation == "clamp"
@@ -133,13 +131,13 @@ PEAKS = "[correction]\nkind = '{}'\nmin_distance_m = 5e-5\n"
 MACRO = "q0_per_m = 2e4\n"
 
 
-def _measured() -> tuple[asperity.HeightMap, np.ndarray[Any, Any]]:
+def _measured():
     heights = np.array(scan().heights) + 1e-5 * np.linspace(0, 1, 80)
     surface = asperity.HeightMap(heights * 1e6 * 1e-6, pixel_size=(2e-5, 1e-5)).detrend("plane")
     return surface, surface.local_peaks(min_distance=5e-5)
 
 
-def test_local_peaks_come_from_the_scan(folder: Path) -> None:
+def test_local_peaks_come_from_the_scan(folder):
     text = SCAN + RUBBER + CONDITIONS + PEAKS.format("local-peaks")
     scene = load_scene(write(folder, text))
     surface, peaks = _measured()
@@ -150,7 +148,7 @@ def test_local_peaks_come_from_the_scan(folder: Path) -> None:
     np.testing.assert_allclose(scene.friction().shift_factor, expected, rtol=1e-9)
 
 
-def test_asperities_take_their_extremes_from_the_scan(folder: Path) -> None:
+def test_asperities_take_their_extremes_from_the_scan(folder):
     text = SCAN + RUBBER + CONDITIONS + PEAKS.format("greenwood-williamson") + MACRO
     scene = load_scene(write(folder, text))
     surface, peaks = _measured()
@@ -182,20 +180,18 @@ LISTED = "heights_m = [1e-4, 2e-4, 1e-4]\nreading = 'added'\nrms_height_m = 7e-5
         ),
     ],
 )
-def test_asperities_of_numbers(folder: Path, kind: str, more: str, expected: object) -> None:
+def test_asperities_of_numbers(folder, kind, more, expected):
     table = f"[correction]\nkind = '{kind}'\nz_max_m = 3e-4\nz_min_m = -3e-4\n"
     scene = load_scene(write(folder, SURFACE + RUBBER + CONDITIONS + table + more))
     assert scene.correction == expected
 
 
 @pytest.mark.parametrize("points", [1, 11])
-def test_points_are_computed_in_chunks_that_change_nothing(
-    folder: Path, points: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_points_are_computed_in_chunks_that_change_nothing(folder, points, monkeypatch):
     monkeypatch.setattr("asperity.scene.model._CHUNK", 4)
     seen: list[slice] = []
 
-    def watch(chunks: list[slice]) -> nullcontext[list[slice]]:
+    def watch(chunks):
         seen.extend(chunks)
         return nullcontext(chunks)
 
@@ -215,7 +211,7 @@ def test_points_are_computed_in_chunks_that_change_nothing(
     assert len(seen) == -(-2 * points // 4)
 
 
-def test_contact_notes_are_the_cores(folder: Path) -> None:
+def test_contact_notes_are_the_cores(folder):
     table = "[correction]\nkind = 'greenwood-williamson'\nz_max_m = 3e-4\nz_min_m = -3e-4\n"
     scene = load_scene(write(folder, SURFACE + RUBBER + CONDITIONS + table))
     expected = asperity.contact_notes(

@@ -1,18 +1,17 @@
 """Foolish scene files: each is refused in one line that names file, table and key."""
 
 import re
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from asperity import Error, InvalidInput, OutOfRange
+from asperity import InvalidInput, OutOfRange
 from asperity.scene.scene import load_scene
 from helpers.scenes import CONDITIONS, CURVE, RUBBER, SCAN, SURFACE
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path):
     """A folder with a scan and a master curve."""
     rng = np.random.default_rng(1)
     np.save(tmp_path / "scan.npy", rng.normal(size=(30, 40)))
@@ -21,7 +20,7 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def refused(folder: Path, text: str) -> Error:
+def refused(folder, text):
     """The error of a scene, in a line that begins with its file, once."""
     path = folder / "scene.toml"
     path.write_text(text, encoding="utf-8")
@@ -93,7 +92,7 @@ HEX, SWEEP = "0x" + "f" * 5000, "{from = 1, to = 2, points = 100001}"
         (BASE, "pressure_pa", "poisson_ratio = 0.6\npressure_pa", "[conditions] poisson_ratio"),
     ],
 )
-def test_tables(folder: Path, scene: str, old: str, new: str, argument: str) -> None:
+def test_tables(folder, scene, old, new, argument):
     assert refused(folder, scene.replace(old, new)).argument == argument
 
 
@@ -123,7 +122,7 @@ def test_tables(folder: Path, scene: str, old: str, new: str, argument: str) -> 
         (GW + "z_max_m = 1e-4\nz_min_m = 2e-4", "[correction] z_min_m"),
     ],
 )
-def test_other_tables(folder: Path, more: str, argument: str) -> None:
+def test_other_tables(folder, more, argument):
     assert refused(folder, BASE + more).argument == argument
 
 
@@ -148,7 +147,7 @@ def test_other_tables(folder: Path, more: str, argument: str) -> None:
         (SCANNED + GW, "[correction] q0_per_m: missing"),
     ],
 )
-def test_whole_files_and_what_is_offered(folder: Path, text: str, words: str) -> None:
+def test_whole_files_and_what_is_offered(folder, text, words):
     assert words in str(refused(folder, text))
 
 
@@ -165,7 +164,7 @@ def test_whole_files_and_what_is_offered(folder: Path, text: str, words: str) ->
         ("{}\n1,1,1\n2,,1\n", "line 3: storage is empty"),
     ],
 )
-def test_master_curves(folder: Path, content: str, words: str) -> None:
+def test_master_curves(folder, content, words):
     header = "angular_frequency_rad_s,storage_modulus_pa,loss_modulus_pa"
     (folder / "curve.csv").write_text(content.format(header))
     message = str(refused(folder, MASTER))
@@ -173,7 +172,7 @@ def test_master_curves(folder: Path, content: str, words: str) -> None:
     assert words in message
 
 
-def test_one_end_of_the_spectrum_is_offered_that_serves_all_velocities(folder: Path) -> None:
+def test_one_end_of_the_spectrum_is_offered_that_serves_all_velocities(folder):
     """The first step of a progress bar that is refused does not reach the fastest velocity."""
     swept = MASTER.replace("to = 1, points = 5", "to = 200, points = 200")
     message = str(refused(folder, swept))
@@ -196,6 +195,6 @@ def test_one_end_of_the_spectrum_is_offered_that_serves_all_velocities(folder: P
 
 
 @pytest.mark.parametrize("name", ["/dev/zero", "none.toml"])
-def test_scenes_that_are_no_files(name: str) -> None:
+def test_scenes_that_are_no_files(name):
     with pytest.raises(InvalidInput, match=f"{name}: cannot be read: "):
         load_scene(name)

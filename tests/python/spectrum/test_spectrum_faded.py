@@ -6,7 +6,7 @@ import pytest
 import asperity
 
 
-def test_a_faded_tail_is_zero() -> None:
+def test_a_faded_tail_is_zero():
     q = np.geomspace(1e3, 1e5, 41)
     faded = 1e-5 * q**-3.6 * np.exp(-((q / 4e3) ** 2))
     rubber = asperity.PronySeries(equilibrium_modulus=1e6, moduli=[1e8], relaxation_times=[1e-4])

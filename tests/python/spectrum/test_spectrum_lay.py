@@ -131,7 +131,7 @@ def test_a_band_without_modes_is_refused():
         anisotropy(surface, q_min=10.2 * DQ, q_max=10.3 * DQ)
 
 
-def test_a_mean_over_directions_tells_of_its_lay() -> None:
+def test_a_mean_over_directions_tells_of_its_lay():
     law = asperity.SelfAffineSpectrum(
         rms_height=1e-6, hurst=0.8, q0=2e4, q1=4e5, axis_ratio=2.5, lay=0.5
     )

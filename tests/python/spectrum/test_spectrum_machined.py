@@ -1,19 +1,16 @@
 """Turned surfaces have lines in their spectra, random ones have none."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 import asperity
-from asperity.base.diagnostics import Note
 from asperity.scene.scan import line_notes
 from asperity.scene.scene import load_scene
 
 PIXEL = 1e-6
 
 
-def rough(seed: int, hurst: float = 0.8, skewness: float = 0) -> np.ndarray:
+def rough(seed, hurst=0.8, skewness=0):
     """Heights of a random surface, cut so that its edges do not meet."""
     q0, q1 = 2 * np.pi / (200 * PIXEL), 0.99 * np.pi / PIXEL
     law = asperity.SelfAffineSpectrum(rms_height=3e-7, hurst=hurst, q0=q0, q1=q1)
@@ -23,13 +20,13 @@ def rough(seed: int, hurst: float = 0.8, skewness: float = 0) -> np.ndarray:
     return made.heights[:200, :196]
 
 
-def notes(heights: np.ndarray) -> list[Note]:
+def notes(heights):
     spectrum = asperity.power_spectrum(asperity.HeightMap(heights, pixel_size=PIXEL))
     return line_notes(spectrum.truncated(q1=np.pi / PIXEL))
 
 
 @pytest.mark.parametrize("period", [8.3, 12.7, 20.7])
-def test_grooves_are_noted_with_their_distance(period: float) -> None:
+def test_grooves_are_noted_with_their_distance(period):
     feed = 2e-6 * np.abs(np.sin(np.pi * np.arange(196) / period))  # cusps, as a tool leaves them
     (note,) = notes(rough(1) + feed)
     assert note.code == "lines-in-spectrum"
@@ -39,7 +36,7 @@ def test_grooves_are_noted_with_their_distance(period: float) -> None:
     assert np.abs(1 / wave - orders).min() < 1 / (200 * PIXEL)  # a ring
 
 
-def test_a_slope_that_ends_the_spectrum_in_a_line_is_noted() -> None:
+def test_a_slope_that_ends_the_spectrum_in_a_line_is_noted():
     """The slope jumps by a third within the line, so a rule on it ends there for many slopes."""
     heights = rough(1) + 1.5e-6 * np.sin(2 * np.pi * np.arange(196) / 12.7)
     spectrum = asperity.power_spectrum(asperity.HeightMap(heights, pixel_size=PIXEL))
@@ -53,7 +50,7 @@ def test_a_slope_that_ends_the_spectrum_in_a_line_is_noted() -> None:
 
 
 @pytest.mark.parametrize("kind", ["partial-contact", "scan-contact"])
-def test_the_contact_of_the_scan_knows_its_grooves(tmp_path: Path, kind: str) -> None:
+def test_the_contact_of_the_scan_knows_its_grooves(tmp_path, kind):
     np.save(tmp_path / "scan.npy", rough(1) + 2e-6 * np.abs(np.sin(np.pi * np.arange(196) / 8.3)))
     (tmp_path / "scene.toml").write_text(
         f'[surface]\nfile = "scan.npy"\npixel_size_m = {PIXEL}\nunit = "m"\n'
@@ -67,6 +64,6 @@ def test_the_contact_of_the_scan_knows_its_grooves(tmp_path: Path, kind: str) ->
 
 @pytest.mark.parametrize("hurst", [0.2, 0.8, 1.0])
 @pytest.mark.parametrize("skewness", [0, -1])
-def test_random_surfaces_are_not(hurst: float, skewness: float) -> None:
+def test_random_surfaces_are_not(hurst, skewness):
     for seed in range(3):
         assert notes(rough(seed, hurst, skewness)) == []

@@ -9,7 +9,7 @@ from asperity.cli.main import main
 PIXEL = 1e-6
 
 
-def test_of_a_surface_with_known_ones() -> None:
+def test_of_a_surface_with_known_ones():
     y, x = np.mgrid[:128, :128] * 2 * np.pi / 16
     result = HeightMap(1e-6 * np.cos(x) * np.cos(y), pixel_size=PIXEL).iso_25178
     assert result["Sq"] == pytest.approx(0.5e-6, rel=1e-12, abs=0)
@@ -22,14 +22,14 @@ def test_of_a_surface_with_known_ones() -> None:
     assert result["Spd"] == pytest.approx(inside / (127 * PIXEL) ** 2, rel=1e-12)
 
 
-def test_the_area_of_a_tilted_plane() -> None:
+def test_the_area_of_a_tilted_plane():
     y, x = np.mgrid[:9, :7] * PIXEL
     result = HeightMap(0.3 * x + 0.4 * y, pixel_size=PIXEL).iso_25178
     assert result["Sdr"] == pytest.approx(np.sqrt(1.25) - 1, rel=1e-9)
     assert result["Spd"] == 0
 
 
-def hills(z: np.ndarray) -> int:
+def hills(z):
     """By the definition: a hill counts whose peak is 5 % of Sz above every way to a higher one."""
     label = pytest.importorskip("scipy.ndimage").label
     count = 0
@@ -44,7 +44,7 @@ def hills(z: np.ndarray) -> int:
 
 
 @pytest.mark.parametrize("seed", range(6))
-def test_hills_are_those_that_stand_above_their_saddles(seed: int) -> None:
+def test_hills_are_those_that_stand_above_their_saddles(seed):
     rng = np.random.default_rng(seed)
     z = rng.normal(size=(24, 20))
     for _ in range(seed % 3):  # smoother ones too
@@ -54,7 +54,7 @@ def test_hills_are_those_that_stand_above_their_saddles(seed: int) -> None:
     assert result["Spd"] * 23 * 19 * PIXEL**2 == pytest.approx(hills(z), abs=1e-6)
 
 
-def test_dropouts_leave_the_hills_out() -> None:
+def test_dropouts_leave_the_hills_out():
     z = np.random.default_rng(1).normal(size=(20, 20))
     z[3, 4] = np.nan
     result = HeightMap(z, pixel_size=1.0).iso_25178
@@ -62,9 +62,7 @@ def test_dropouts_leave_the_hills_out() -> None:
     assert np.isfinite(list(result.values())).all()
 
 
-def test_the_verb_tells_them(
-    tmp_path: pytest.TempPathFactory, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_the_verb_tells_them(tmp_path, capsys):
     z = np.random.default_rng(1).normal(size=(40, 50)) * 1e-7
     np.save(f"{tmp_path}/a.npy", z)
     how = ["--pixel-size", "1e-6", "--unit", "m", "--output", f"{tmp_path}/a.csv"]

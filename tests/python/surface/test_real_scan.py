@@ -1,8 +1,6 @@
 """Files of instruments, made and measured: as they are, damaged, and through the shell command."""
 
 import re
-from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -25,7 +23,7 @@ scans = pytest.mark.parametrize(("source", "name"), SCANS)
 sources = pytest.mark.parametrize("source", SOURCES)
 
 
-def untilted(heights: np.ndarray) -> float:
+def untilted(heights):
     """rms height [m] about the plane or line through the points, by NumPy's least squares."""
     there = np.isfinite(heights)
     where = [np.ones(there.sum()), *(axis[there] for axis in np.indices(heights.shape))]
@@ -38,7 +36,7 @@ def untilted(heights: np.ndarray) -> float:
 
 
 @scans
-def test_scan_as_it_is(source: str, name: str, file_of: Callable[[str, str], Path]) -> None:
+def test_scan_as_it_is(source, name, file_of):
     scan = read_surface(file_of(source, name))
     if source == "made":
         truth = made_files.heights_of(name)
@@ -58,21 +56,19 @@ def test_scan_as_it_is(source: str, name: str, file_of: Callable[[str, str], Pat
 
 
 @sources
-def test_scan_states_its_own_unit(source: str, file_of: Callable[[str, str], Path]) -> None:
+def test_scan_states_its_own_unit(source, file_of):
     with pytest.raises(InvalidInput, match=r"csv: unit = 'um': must be left out"):
         read_surface(file_of(source, LINES[source]), unit="um")
 
 
 @sources
-def test_dropouts_are_not_filled_where_they_are_many(
-    source: str, file_of: Callable[[str, str], Path]
-) -> None:
+def test_dropouts_are_not_filled_where_they_are_many(source, file_of):
     name, share = HOLES[source]
     with pytest.raises(InvalidInput, match=rf"{re.escape(share)} % of the points are drop-outs"):
         read_surface(file_of(source, name)).fill_dropouts()
 
 
-def read_if_sound(path: Path) -> HeightMap | LineScan | None:
+def read_if_sound(path):
     """The scan, or nothing after one error of one line that names the file."""
     try:
         return read_surface(path)
@@ -85,13 +81,7 @@ def read_if_sound(path: Path) -> HeightMap | LineScan | None:
 
 
 @scans
-def test_truncated_scan(
-    source: str,
-    name: str,
-    file_of: Callable[[str, str], Path],
-    tmp_path: Path,
-    capfd: pytest.CaptureFixture[str],
-) -> None:
+def test_truncated_scan(source, name, file_of, tmp_path, capfd):
     file = file_of(source, name)
     content, whole = file.read_bytes(), read_surface(file).heights
     path = tmp_path / name
@@ -110,13 +100,7 @@ def test_truncated_scan(
 
 
 @scans
-def test_corrupt_scan(
-    source: str,
-    name: str,
-    file_of: Callable[[str, str], Path],
-    tmp_path: Path,
-    capfd: pytest.CaptureFixture[str],
-) -> None:
+def test_corrupt_scan(source, name, file_of, tmp_path, capfd):
     content = file_of(source, name).read_bytes()
     path = tmp_path / name
     random = np.random.default_rng(3)

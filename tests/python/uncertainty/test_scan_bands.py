@@ -16,7 +16,7 @@ SCENE = {"pressure": np.array([5e4, 5e5]), "velocity": np.array([1e-2, 1e-2])}
 
 
 @cache
-def scans() -> list[tuple[asperity.HeightMap, asperity.TabulatedSpectrum]]:
+def scans():
     """Crops of one worn surface, and their spectra."""
     n = SIDE * SCANS
     road = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=Q0, q1=Q1)
@@ -35,7 +35,7 @@ def scans() -> list[tuple[asperity.HeightMap, asperity.TabulatedSpectrum]]:
     return crops
 
 
-def test_bands_of_one_scan_hold_the_mean_of_the_others() -> None:
+def test_bands_of_one_scan_hold_the_mean_of_the_others():
     mu: list[Any] = []
     bands: dict[float, list[Any]] = {0.95: [], 0.5: []}
     for scan, spectrum in scans():
@@ -58,7 +58,7 @@ def test_bands_of_one_scan_hold_the_mean_of_the_others() -> None:
     assert (rule.lower > 1.2 * others[0]).all()
 
 
-def test_a_band_solves_no_more_contacts_than_its_curve() -> None:
+def test_a_band_solves_no_more_contacts_than_its_curve():
     scan, spectrum = scans()[0]
     exact = asperity.ScanContact(scan)
     mu = asperity.friction(spectrum, RUBBER, correction=exact, **SCENE).mu
@@ -74,7 +74,7 @@ def test_a_band_solves_no_more_contacts_than_its_curve() -> None:
     assert threaded.upper.tolist() == one.upper.tolist()
 
 
-def test_beyond_the_scan_the_spectrum_is_drawn() -> None:
+def test_beyond_the_scan_the_spectrum_is_drawn():
     scan, spectrum = scans()[0]
     known = spectrum.wavenumber[-1]
     q = np.concatenate([spectrum.wavenumber, known * np.geomspace(1.05, 30, 40)])
@@ -82,7 +82,7 @@ def test_beyond_the_scan_the_spectrum_is_drawn() -> None:
     density[: len(spectrum.density)] = spectrum.density
     scene = {**SCENE, "correction": asperity.ScanContact(scan)}
 
-    def width(error: float) -> Any:
+    def width(error):
         longer = asperity.TabulatedSpectrum(
             wavenumber=q,
             density=density,

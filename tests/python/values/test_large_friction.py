@@ -18,7 +18,7 @@ RUBBER = asperity.PronySeries(equilibrium_modulus=3e6, moduli=[1e8], relaxation_
 SOFT = prony(3e6, [1e7] * 5, np.geomspace(1e-8, 1e-4, 5))
 
 
-def test_the_page_has_every_note_that_is_to_be_acted_on() -> None:
+def test_the_page_has_every_note_that_is_to_be_acted_on():
     stop, act, _ = PAGE.read_text(encoding="utf-8").split("\n## ")[1:]
     of_units = {code for code in NOTES if code.startswith(("absurd-", "unusual-", "squashed-"))}
     for part, severity in ((stop, FATAL), (act, WARNING)):
@@ -31,7 +31,7 @@ def test_the_page_has_every_note_that_is_to_be_acted_on() -> None:
     ("road", "shear_stress", "large"),
     [(ROAD, 0.0, False), (ROAD, 1e6, False), (ROAD, 4e7, True), (STEEP, 0.0, True)],
 )
-def test_its_note_has_the_largest_mu(road: object, shear_stress: float, large: bool) -> None:
+def test_its_note_has_the_largest_mu(road, shear_stress, large):
     result = asperity.friction(
         road,
         RUBBER,
@@ -45,7 +45,7 @@ def test_its_note_has_the_largest_mu(road: object, shear_stress: float, large: b
 
 
 @pytest.mark.parametrize(("shear_stress", "large"), [(1e6, False), (2e8, True)])
-def test_with_heat_the_hot_friction_counts(shear_stress: float, large: bool) -> None:
+def test_with_heat_the_hot_friction_counts(shear_stress, large):
     result = asperity.friction(
         STEEP,
         SOFT,
