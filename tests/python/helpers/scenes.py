@@ -1,4 +1,6 @@
-"""Tables of scene files, and a folder with a scene and a scan, which several tests share."""
+"""Tables of scene files, which several tests share, and what Python's functions make of them."""
+
+import asperity
 
 SURFACE = """
 [surface]
@@ -41,3 +43,11 @@ conductivity_w_m_k = 0.23
 contact_diameter_m = 1e-3
 """
 SCENE = SURFACE + RUBBER + CONDITIONS + ADHESION
+
+
+def by_python(scene, **more):
+    """Friction of the parts of a scene at its points, flat, with more or other arguments."""
+    pressure, velocity = scene.points
+    parts = {"spectrum": scene.spectrum, "rubber": scene.rubber}
+    at = {"pressure": pressure, "velocity": velocity, "adhesion": scene.adhesion}
+    return asperity.friction(**{**parts, **at, "correction": scene.correction, **more})

@@ -12,7 +12,7 @@ from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
 from helpers.rubbers import prony
-from helpers.scenes import HEATING, LAW
+from helpers.scenes import HEATING, LAW, by_python
 
 WLF = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 TREAD = asperity.Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
@@ -36,36 +36,15 @@ def rows(text, capsys):
     return list(csv.DictReader(io.StringIO("\n".join(lines)))), out
 
 
-def of_python(temperature, **more):
-    base = load_scene(written(scene("")))
-    pressure, velocity = base.points
-    return asperity.friction(
-        base.spectrum,
-        base.rubber,
-        pressure=pressure,
-        velocity=velocity,
-        adhesion=base.adhesion,
-        temperature=temperature,
-        shift=WLF,
-        **more,
-    )
-
-
 def test_a_list_of_temperatures_is_a_block_of_rows_each(folder, capsys):
     result, out = rows(scene("temperature_c = [10, 26.85]"), capsys)
     assert list(result[0])[-1] == "temperature_k"
     assert "temperature_k [K]" in out
     assert "conditions.temperature_c = [10, 26.85]" in out
     for t, block in ((283.15, result[:10]), (300.0, result[10:])):
-        expected = asperity.friction(
-            load_scene(written(scene(f"temperature_k = {t}"))).spectrum,
-            prony(2e6, [1e9, 1e8, 1e7], [1e-8, 1e-6, 1e-4]),
-            pressure=[float(row["pressure_pa"]) for row in block],
-            velocity=[float(row["velocity_m_s"]) for row in block],
-            adhesion=asperity.Adhesion(shear_stress=8.3e6),
-            temperature=t,
-            shift=WLF,
-        )
+        one = load_scene(written(scene(f"temperature_k = {t}")))
+        series = prony(2e6, [1e9, 1e8, 1e7], [1e-8, 1e-6, 1e-4])
+        expected = by_python(one, rubber=series, temperature=t, shift=WLF)
         np.testing.assert_allclose([float(row["temperature_k"]) for row in block], t)
         np.testing.assert_allclose([float(row["mu"]) for row in block], expected.mu, rtol=1e-12)
 
@@ -74,17 +53,8 @@ def test_heat_adds_its_columns(folder, capsys):
     result, _ = rows(scene(more=HEATING), capsys)
     assert list(result[0])[-3:] == ["temperature_k", "hot_temperature_k", "mu_cold"]
     first = load_scene("hot.toml", for_friction=True)
-    pressure, velocity = first.points
-    expected = asperity.friction(
-        first.spectrum,
-        first.built_rubber.at_reference,
-        pressure=pressure,
-        velocity=velocity,
-        adhesion=first.adhesion,
-        temperature=300.0,
-        shift=WLF,
-        heating=TREAD,
-    )
+    cold = first.built_rubber.at_reference
+    expected = by_python(first, rubber=cold, temperature=300.0, shift=WLF, heating=TREAD)
     for name, column in (
         ("mu", expected.mu),
         ("hot_temperature_k", expected.temperature),

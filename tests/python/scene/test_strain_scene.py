@@ -7,6 +7,7 @@ import asperity
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
+from helpers.scenes import by_python
 
 ROWS = {"strain": [0.01, 0.1, 0.3], "storage": [0.8, 0.5, 0.3], "loss": [1.2, 0.8, 0.4]}
 SOFT = """
@@ -49,20 +50,13 @@ def written(of_rubber, more=""):
     return "soft.toml"
 
 
-def by_python(scene, factors):
-    pressure, velocity = scene.points
-    return asperity.friction(
-        scene.spectrum, scene.rubber, pressure=pressure, velocity=velocity, strain_factors=factors
-    )
-
-
 def test_rows(folder):
     scene = load_scene(written(SOFT))
-    expected = by_python(scene, asperity.StrainFactors(**ROWS))
+    expected = by_python(scene, strain_factors=asperity.StrainFactors(**ROWS))
     result = scene.friction()
     assert np.array_equal(result.mu.ravel(), expected.mu)
     assert "strain-beyond-sweeps" in [note.code for note in result.notes]
-    plain = by_python(scene, None)
+    plain = by_python(scene)
     assert np.all(result.contact_area.ravel() > 2 * plain.contact_area)
 
 
@@ -72,7 +66,8 @@ def test_sweeps(folder, kind, times):
     factors = scene.options["strain_factors"]
     np.testing.assert_allclose(factors.strain, [0.001, 0.01 / times, 0.1 / times])
     assert factors.strain_per_slope == 0.7
-    assert np.array_equal(scene.friction().mu.ravel(), by_python(scene, factors).mu)
+    expected = by_python(scene, strain_factors=factors)
+    assert np.array_equal(scene.friction().mu.ravel(), expected.mu)
     assert folder / "sweep.csv" in [path.resolve() for path in scene.sources]
 
 
