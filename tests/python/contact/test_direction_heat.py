@@ -16,13 +16,11 @@ from asperity import (
 from helpers import table_rows
 from helpers.cases import case
 from helpers.ridges import RUBBER, C, Q, ridges, rows
-from helpers.rubbers import curve_of
+from helpers.rubbers import curve_of, tread
 
 PAYNE = StrainFactors(strain=[0.01, 0.1, 0.5], storage=[0.8, 0.5, 0.3], loss=[1.2, 0.8, 0.4])
 HEAT = {
-    "heating": asperity.Heating(
-        density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3
-    ),
+    "heating": tread(),
     "shift": asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15),
     "temperature": 293.15,
 }
@@ -38,12 +36,7 @@ def test_strain_and_heat_by_definition(reference_table, rtol):
         with case(case=row["case"], rtol=rtol):
             given = {name: row[name] for name in ("pressure", "velocity", "poisson_ratio")}
             if row["heated"]:
-                heating = asperity.Heating(
-                    density=1200,
-                    heat_capacity=row["heat_capacity"],
-                    conductivity=0.23,
-                    contact_diameter=1e-3,
-                )
+                heating = tread(heat_capacity=row["heat_capacity"])
                 given |= {**HEAT, "heating": heating, "temperature": row["temperature"]}
             law = ("rms_height", "hurst", "q0", "q1", "axis_ratio")
             found = asperity.friction(

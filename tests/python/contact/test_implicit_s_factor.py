@@ -4,15 +4,14 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.examples import TREAD
 from helpers.heat import LAW
-from helpers.rubbers import prony
+from helpers.rubbers import prony, tread
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=1e3, q1=1e5, rolloff=2e3)
 RUBBER = prony(1e6, np.geomspace(1e8, 1e6, 7), np.geomspace(1e-5, 10, 7))
 LOADS = np.geomspace(1e2, 1e9, 29)
 STICKY = asperity.Adhesion(shear_stress=8e6)
-HOT = {"temperature": 293.15, "shift": LAW, "heating": asperity.Heating(**TREAD)}
+HOT = {"temperature": 293.15, "shift": LAW, "heating": tread()}
 
 
 def area(pressure, correction=None, **more):
@@ -67,7 +66,7 @@ def test_every_magnification_has_its_own_area():
 
 @pytest.mark.parametrize("heat", [False, True])
 def test_eq_22_is_left_alone_and_the_adhesion_goes_with_the_area(heat):
-    cold_interface = asperity.Heating(**TREAD | {"interface_share": 0})
+    cold_interface = tread(interface_share=0)
     hot = HOT | {"heating": cold_interface} if heat else {}
     at = {"pressure": [1e5, 1e6], "velocity": 0.1, "adhesion": STICKY, **hot}
     plain = asperity.friction(ROAD, RUBBER, **at)

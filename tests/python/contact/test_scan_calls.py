@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.rubbers import curve_of, prony
+from helpers.rubbers import curve_of, prony, tread
 
 LENGTH = 0.01
 ROAD = asperity.SelfAffineSpectrum(
@@ -49,9 +49,7 @@ def test_progress_is_told_after_each_contact(threads):
 
 def test_progress_of_hot_points_and_of_areas():
     law = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
-    heating = asperity.Heating(
-        density=1200.0, heat_capacity=1650.0, conductivity=0.2, contact_diameter=2e-3
-    )
+    heating = tread(conductivity=0.2, contact_diameter=2e-3)
     exact, seen = scan(), []
     with exact.progress(lambda *both: seen.append(both)):
         asperity.contact_area(ROAD, RUBBER, pressure=2e5, velocity=0.1, correction=exact)

@@ -8,7 +8,7 @@ import pytest
 
 import asperity
 from asperity.validation import slide
-from helpers.rubbers import prony
+from helpers.rubbers import prony, tread
 
 LENGTH = 0.01
 RUBBER = prony(1e6, np.geomspace(3e5, 3e8, 8), np.geomspace(1e-1, 1e-7, 8))
@@ -268,9 +268,7 @@ LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 
 
 def heated(conductivity, velocity):
-    heating = asperity.Heating(
-        density=1200.0, heat_capacity=1650.0, conductivity=conductivity, contact_diameter=2e-3
-    )
+    heating = tread(conductivity=conductivity, contact_diameter=2e-3)
     return friction(velocity, temperature=293.15, shift=LAW, heating=heating)
 
 
@@ -301,9 +299,7 @@ def test_with_heat_each_wave_has_its_temperature():
             correction=EXACT,
             temperature=293.15,
             shift=LAW,
-            heating=asperity.Heating(
-                density=1200.0, heat_capacity=1650.0, conductivity=0.2, contact_diameter=2e-3
-            ),
+            heating=tread(conductivity=0.2, contact_diameter=2e-3),
         )
 
 

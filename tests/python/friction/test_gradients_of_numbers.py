@@ -6,16 +6,14 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.rubbers import prony
+from helpers.rubbers import prony, tread
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=2e-5, hurst=0.8, q0=2000, q1=1e6)
 SERIES = prony(3e6, np.geomspace(1e6, 3e8, 9), np.geomspace(1e-2, 1e-9, 9))
 ELASTIC = asperity.PronySeries(equilibrium_modulus=3e6, moduli=[], relaxation_times=[])
 STICKY = asperity.Adhesion(shear_stress=1e7)
 HOT = {
-    "heating": asperity.Heating(
-        density=1200, heat_capacity=1650, conductivity=0.2, contact_diameter=1e-3
-    ),
+    "heating": tread(conductivity=0.2),
     "shift": asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15),
     "temperature": 300.0,
 }

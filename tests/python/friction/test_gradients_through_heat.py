@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.rubbers import curve_of, prony
+from helpers.rubbers import curve_of, prony, tread
 
 
 def with_changes(made, **more):
@@ -35,9 +35,7 @@ STRAIN = asperity.StrainFactors(
     storage=[0.95, 0.75, 0.45, 0.34, 0.3],
     loss=[1.1, 1.25, 0.8, 0.5, 0.41],
 )
-HEATING = asperity.Heating(
-    density=1200.0, heat_capacity=1650.0, conductivity=0.23, contact_diameter=1e-3
-)
+HEATING = tread()
 AREA = with_changes(HEATING, macro_area=0.1, residence="box", interface_share=0.9)
 OWN = with_changes(HEATING, macro_wavenumber=5e3, interface_share=0.4)
 STICKY = asperity.Adhesion(shear_stress=1e6)

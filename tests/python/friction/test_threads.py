@@ -15,7 +15,6 @@ SCATTER = 1 + 0.3 * np.random.default_rng(1).uniform(-1, 1, 100)
 SCAN = asperity.TabulatedSpectrum(wavenumber=RINGS, density=1e-12 * (RINGS / 1e3) ** -3.6 * SCATTER)
 FREQUENCY = np.geomspace(1e-4, 1e8, 60)
 MEASURED = curve_of(FREQUENCY, RUBBER.modulus(FREQUENCY))
-TABLE = {"wavenumber": [1e3, 1e5], "density": [1e-12, 1e-20], "standard_error": [1e-13, 1e-21]}
 VELOCITY = np.random.default_rng(2).permutation(np.geomspace(1e-5, 10, 1001))
 PEAKS = asperity.GreenwoodWilliamson(z_max=4e-4, z_min=-4e-4, rms_height=1e-4, q0=1e3)
 STICKY = asperity.Adhesion(shear_stress=5e6)
@@ -62,45 +61,6 @@ def test_a_band_is_the_same_with_any_number_of_threads():
         assert asperity.friction_band(noisy, RUBBER, threads=threads, **scene) == alone
 
 
-def test_draws_that_fail_are_counted_alike(monkeypatch):
-    """Every thirtieth draw of a surface fails, and every fortieth curve."""
-    from asperity.uncertainty import band
-
-    noisy = asperity.TabulatedSpectrum(
-        wavenumber=SCAN.wavenumber, density=SCAN.density, standard_error=0.1 * SCAN.density
-    )
-    drawn_spectrum, friction = band.drawn_spectrum, band.friction
-
-    class Failing:
-        def __init__(self, source):
-            self.inner, self.plain, self.count = drawn_spectrum(source), source, 0
-            self.draw = self.inner.draw
-
-        def __call__(self, rng):
-            self.count += 1
-            if self.count % 30 == 0:
-                raise asperity.NotConverged("every thirtieth")
-            drawn = self.inner(rng)
-            bad.append(drawn) if self.count % 40 == 0 else None
-            return drawn
-
-    def failing(spectrum, *arguments, **options):
-        if any(spectrum is one for one in bad):
-            raise asperity.NotConverged("every fortieth")
-        return friction(spectrum, *arguments, **options)
-
-    monkeypatch.setattr(band, "drawn_spectrum", Failing)
-    monkeypatch.setattr(band, "friction", failing)
-    bands = []
-    for threads in (1, 3):
-        bad = []
-        scene = {"pressure": 1e5, "velocity": VELOCITY[:5], "threads": threads}
-        bands.append(asperity.friction_band(noisy, RUBBER, **scene))
-    assert bands[0] == bands[1]
-    note = bands[0].notes[-1]
-    assert note.startswith("the band leaves out 5 of 100 draws that failed")
-
-
 def test_an_error_is_that_of_the_slowest_point_that_fails():
     velocity = np.geomspace(1e-5, 10, 400)
     pressure = np.full(400, 1e5)
@@ -111,26 +71,3 @@ def test_an_error_is_that_of_the_slowest_point_that_fails():
             asperity.friction(ROAD, RUBBER, pressure=pressure, velocity=velocity, threads=threads)
         said.add(str(caught.value))
     assert len(said) == 1
-
-
-@pytest.mark.parametrize(
-    ("threads", "message"),
-    [
-        (0, "threads = 0: must be a whole number, from 1 to 1024"),
-        (1025, "threads = 1025: must be a whole number, from 1 to 1024"),
-        (1.5, "threads = 1.5: must be a whole number, from 1 to 1024"),
-        ("2", "threads = '2': must be a whole number, from 1 to 1024"),
-    ],
-)
-def test_a_number_of_threads_that_is_none_is_refused(threads, message):
-    box = {"pressure": (5e4, 5e5), "velocity": (1e-4, 1), "checked": 0}
-    for call in (
-        lambda: asperity.friction(ROAD, RUBBER, pressure=1e5, velocity=1.0, threads=threads),
-        lambda: asperity.friction_map(ROAD, RUBBER, threads=threads, **box),
-        lambda: asperity.friction_band(
-            asperity.TabulatedSpectrum(**TABLE), RUBBER, pressure=1e5, velocity=1.0, threads=threads
-        ),
-    ):
-        with pytest.raises(asperity.InvalidInput) as caught:
-            call()
-        assert str(caught.value) == message

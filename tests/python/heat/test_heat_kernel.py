@@ -7,22 +7,20 @@ import asperity
 from helpers.cases import case
 from helpers.examples import TREAD
 from helpers.refusals import refused
+from helpers.rubbers import tread
 from helpers.table_rows import close
 
-HEATING = asperity.Heating(**TREAD)
+HEATING = tread()
 D = TREAD["conductivity"] / (TREAD["density"] * TREAD["heat_capacity"])
 RHO_C = TREAD["density"] * TREAD["heat_capacity"]
 
 
 def heated(row):
     """The constants of a row, whose diffusivity is that of this density and capacity."""
-    return asperity.Heating(
-        **TREAD
-        | {
-            "conductivity": row["diffusivity"] * RHO_C,
-            "contact_diameter": row["contact_diameter"],
-            "residence": row["residence"],
-        }
+    return tread(
+        conductivity=row["diffusivity"] * RHO_C,
+        contact_diameter=row["contact_diameter"],
+        residence=row["residence"],
     )
 
 
@@ -42,7 +40,7 @@ def test_universal_functions_of_their_definition(row):
     diameter = 1e-3
     box = row["residence"] == "box"
     velocity = diameter / time / (2 if box else 1)
-    heating = asperity.Heating(**TREAD | {"residence": row["residence"]})
+    heating = tread(residence=row["residence"])
     on_diagonal = asperity.heat_kernel(q, q, velocity=velocity, heating=heating)
     close(row, ["q"], [2 * on_diagonal / time])
 
@@ -69,7 +67,7 @@ def over_k(q, q_prime, time, residence):
 @pytest.mark.parametrize("residence", ["disc", "box"])
 def test_closed_form_is_the_integral_over_k(residence):
     rng = np.random.default_rng(3)
-    heating = asperity.Heating(**TREAD | {"residence": residence})
+    heating = tread(residence=residence)
     for _ in range(40):
         q, q_prime, v = np.exp(rng.uniform(np.log([1e3, 1e3, 1e-4]), np.log([1e6, 1e6, 10])))
         if rng.random() < 0.3:
@@ -83,7 +81,7 @@ def test_closed_form_is_the_integral_over_k(residence):
 def test_kernel_has_no_seam_where_its_formula_changes():
     q = 1e4
     for residence in ("disc", "box"):
-        heating = asperity.Heating(**TREAD | {"residence": residence})
+        heating = tread(residence=residence)
         for v in (1e-4, 1.0, 1e3):
             for apart in (0.02, 1e-3, 1e-9):
                 near = q * (1 + apart * np.array([1 - 1e-6, 1, 1 + 1e-6]))
@@ -93,7 +91,7 @@ def test_kernel_has_no_seam_where_its_formula_changes():
 
 
 def test_kernel_without_diffusion_stays_where_the_heat_is():
-    thin = asperity.Heating(**TREAD | {"conductivity": 0.01, "contact_diameter": 1e-12})
+    thin = tread(conductivity=0.01, contact_diameter=1e-12)
     q, q_prime, v = 2e3, 1e5, 1e3
     residence = 4 / (3 * np.pi) * 1e-12 / v  # 8 R / (3 pi v)
     g = asperity.heat_kernel(q, q_prime, velocity=v, heating=thin)
@@ -110,7 +108,7 @@ def test_kernel_where_diffusion_wins_is_the_same_for_all_wavenumbers():
 def test_kernel_is_positive_over_all_scales():
     q = np.geomspace(1e-3, 1e12, 60)
     for residence in ("disc", "box"):
-        heating = asperity.Heating(**TREAD | {"residence": residence})
+        heating = tread(residence=residence)
         for v in (1e-9, 1e-3, 10.0, 1e5):
             assert asperity.heat_kernel(q[:, None], q, velocity=v, heating=heating).min() > 0
 
@@ -126,10 +124,10 @@ def test_velocities_broadcast_with_wavenumbers():
 
 def test_calls_without_a_kernel_are_refused():
     with refused("macro_area"):
-        asperity.Heating(**TREAD | {"macro_area": 0.2, "macro_wavenumber": 5e3})
+        tread(macro_area=0.2, macro_wavenumber=5e3)
     for wavenumber in (-1.0, np.nan):
         with refused("macro_wavenumber"):
-            asperity.Heating(**TREAD | {"macro_wavenumber": wavenumber})
+            tread(macro_wavenumber=wavenumber)
     for velocity in (0.0, [1.0, np.nan], [1.0, -1.0]):
         with refused("velocity"):
             asperity.heat_kernel(1e3, 1e3, velocity=velocity, heating=HEATING)

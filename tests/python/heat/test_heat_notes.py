@@ -7,8 +7,9 @@ import pytest
 import asperity
 from asperity.results.heat_notes import with_size_of_heat
 from helpers.cases import case
-from helpers.examples import BUILD, ROAD, RUBBER, TREAD
+from helpers.examples import BUILD, ROAD, RUBBER
 from helpers.refusals import refused
+from helpers.rubbers import tread
 
 LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 FIT = asperity.ShiftFactors(
@@ -26,7 +27,7 @@ def note_of(result, code):
 def test_the_note_on_heat_says_its_size():
     """That of the fastest point, by the model itself with typical constants."""
     v = [1e-3, 10.0, 0.1]
-    heating = asperity.Heating(**TREAD)
+    heating = tread()
     cold = asperity.friction(ROAD, RUBBER, velocity=v, **AT)
     hot = asperity.friction(ROAD, RUBBER, velocity=v, heating=heating, **AT)
     rise = hot.temperature[1] - 290.0
@@ -53,7 +54,7 @@ def test_reading_notes_computes_nothing(monkeypatch):
 @pytest.mark.parametrize("heated", [False, True])
 def test_a_fitted_law_beyond_its_temperatures_is_noted(heated):
     given = {"pressure": 1e5, "velocity": 1e-3, "shift": FIT}
-    more = {"heating": asperity.Heating(**TREAD)} if heated else {}
+    more = {"heating": tread()} if heated else {}
     assert (FIT.lowest_temperature, FIT.highest_temperature) == (263.0, 303.0)
     inside = asperity.friction(ROAD, RUBBER, temperature=280.0, **given, **more)
     assert note_of(inside, "law-beyond-fit") is None

@@ -8,9 +8,8 @@ import pytest
 
 import asperity
 from helpers.cases import case
-from helpers.examples import TREAD
 from helpers.heat import ASPHALT, LAW, hot
-from helpers.rubbers import prony
+from helpers.rubbers import prony, tread
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import random_heat
@@ -99,9 +98,7 @@ def test_a_curve_stays_on_the_coldest_state():
     """Macro-asperities that stay colder than q1 make three states where one temperature has one."""
     at = {
         "rubber": prony(1.04e6, [1.82e8, 8.34e7, 8.1e7], [1.67e-9, 1.44e-6, 1.25e-3]),
-        "heating": asperity.Heating(
-            **TREAD | {"conductivity": 0.49, "contact_diameter": 5e-4, "residence": "box"}
-        ),
+        "heating": tread(conductivity=0.49, contact_diameter=5e-4, residence="box"),
         "adhesion": asperity.Adhesion(shear_stress=3.75e5, reference_velocity=6e-3),
         "pressure": 5648.0,
         "temperature": 278.5,

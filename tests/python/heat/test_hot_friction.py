@@ -11,7 +11,7 @@ from helpers.cases import case
 from helpers.examples import TREAD
 from helpers.heat import ASPHALT, CUT, LAW, STICKY, hot, rubber
 from helpers.refusals import refused
-from helpers.rubbers import curve_of
+from helpers.rubbers import curve_of, tread
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 import random_heat
@@ -19,8 +19,8 @@ import random_heat
 KINDS = {
     "s_factor": {"correction": asperity.SFactor(gamma=0.5)},
     "interpolated": {"form": "interpolated"},
-    "box": {"heating": asperity.Heating(**TREAD | {"residence": "box"})},
-    "macro_area_0.2": {"heating": asperity.Heating(**TREAD | {"macro_area": 0.2})},
+    "box": {"heating": tread(residence="box")},
+    "macro_area_0.2": {"heating": tread(macro_area=0.2)},
     "adhesion": {"adhesion": STICKY},
 }
 
@@ -120,15 +120,12 @@ def test_the_reference_of_the_law_does_not_matter():
 def test_strong_or_quick_cooling_leads_back_to_the_cold_rubber():
     v = 1.0
     rise = [
-        hot(
-            velocity=1e-5, heating=asperity.Heating(**TREAD | {"conductivity": conductivity})
-        ).temperature
-        - 293.15
+        hot(velocity=1e-5, heating=tread(conductivity=conductivity)).temperature - 293.15
         for conductivity in (1.0, 100.0)
     ]
     assert rise[0] / rise[1] == pytest.approx(10, rel=0.03)  # as lambda^-1/2
     small = {"contact_diameter": 1e-10, "macro_wavenumber": 6283.0}
-    found = hot(velocity=v, heating=asperity.Heating(**TREAD | small))
+    found = hot(velocity=v, heating=tread(**small))
     assert found.mu == pytest.approx(found.cold.mu, rel=1e-6)
     smaller = asperity.Heating(**TREAD | small | {"contact_diameter": 1e-12})
     rises = found.temperature - 293.15, hot(velocity=v, heating=smaller).temperature - 293.15
@@ -146,7 +143,7 @@ def test_the_energy_arrives_at_long_waves():
         velocity=1.0,
         contributions=True,
         rtol=1e-9,
-        heating=asperity.Heating(**TREAD | {"macro_wavenumber": 6283.0}),
+        heating=tread(macro_wavenumber=6283.0),
     )
     residence = 8 * 5e-4 / (3 * np.pi)
     flux = found.hysteresis * 2e5 / (1200 * 1650 * found.macro_area)
@@ -164,7 +161,7 @@ def test_a_contact_may_break_up_far_beyond_the_first_wave(faint):
     )
     at = {
         "velocity": 1.0,
-        "heating": asperity.Heating(**TREAD | {"macro_wavenumber": 6283.0}),
+        "heating": tread(macro_wavenumber=6283.0),
     }
     truth = hot(table, **at, rtol=1e-10)
     for rtol in (1e-4, 1e-7, 1e-8, 1e-9):
@@ -257,8 +254,8 @@ def test_points_do_not_depend_on_the_threads_that_share_them(correction):
         ("heating", {"shift": None, "temperature": None}),
         ("heating", {"heating": TREAD}),
         ("method", {"method": "qag"}),
-        ("interface_share", {"heating": asperity.Heating(**TREAD | {"interface_share": 0.2})}),
-        ("macro_wavenumber", {"heating": asperity.Heating(**TREAD | {"macro_wavenumber": 1e3})}),
+        ("interface_share", {"heating": tread(interface_share=0.2)}),
+        ("macro_wavenumber", {"heating": tread(macro_wavenumber=1e3)}),
         ("branch", {"heating": None, "branch": "hot"}),
         ("branch", {"branch": "warm"}),
     ],
@@ -294,7 +291,7 @@ def test_heat_beyond_what_is_known_is_out_of_range():
     hot(velocity=1.0, rubber=rubber())
     burning = {"conductivity": 0.01, "contact_diameter": 0.1, "macro_area": 1e-3}
     with refused("temperature", "too-hot", asperity.OutOfRange):
-        hot(velocity=30.0, pressure=5e6, heating=asperity.Heating(**TREAD | burning))
+        hot(velocity=30.0, pressure=5e6, heating=tread(**burning))
 
 
 def test_notes_say_where_the_model_leaves_its_range():
@@ -306,8 +303,8 @@ def test_notes_say_where_the_model_leaves_its_range():
     assert "heat-left-out" in {note.code for note in cold.notes}
     assert "hot-rubber" in codes(spectrum=ASPHALT, velocity=10.0)
     small = {"contact_diameter": 2e-6, "macro_area": 1e-6}
-    assert "heat-flows-sideways" in codes(heating=asperity.Heating(**TREAD | small))
-    wide = asperity.Heating(**TREAD | {"contact_diameter": 4e-3})
+    assert "heat-flows-sideways" in codes(heating=tread(**small))
+    wide = tread(contact_diameter=4e-3)
     assert {"macro-wavenumber-held", "crowded-contacts"} <= codes(heating=wide)
 
 

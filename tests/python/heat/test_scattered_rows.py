@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import asperity
-from helpers.rubbers import prony
+from helpers.rubbers import prony, tread
 
-HEAT = asperity.Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
+HEAT = tread()
 LAW = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 VELOCITY = np.geomspace(1e-4, 10, 13)
 

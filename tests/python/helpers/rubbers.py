@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from asperity import Isotherm, MasterCurve, PronySeries, build_master_curve
+from asperity import Heating, Isotherm, MasterCurve, PronySeries, build_master_curve
 
 T_REF = 293.15
 TEMPERATURES = np.arange(-30, 78, 5) + 273.15  # 22
@@ -13,6 +13,13 @@ def prony(equilibrium_modulus, moduli, relaxation_times):
     return PronySeries(
         equilibrium_modulus=equilibrium_modulus, moduli=moduli, relaxation_times=relaxation_times
     )
+
+
+def tread(**changed):
+    """The heat of a tread compound in contacts of a millimetre, with other constants."""
+    constants = {"density": 1200.0, "heat_capacity": 1650.0}
+    constants |= {"conductivity": 0.23, "contact_diameter": 1e-3}
+    return Heating(**{**constants, **changed})
 
 
 def curve_of(angular_frequency, modulus, **more):

@@ -11,11 +11,11 @@ import asperity
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from helpers import scenes
-from helpers.rubbers import prony
+from helpers.rubbers import prony, tread
 from helpers.scenes import HEATING, LAW, by_python
 
 WLF = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
-TREAD = asperity.Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
+TREAD = tread()
 
 
 def scene(temperature="temperature_k = 300", *, law=LAW, more=""):

@@ -4,13 +4,12 @@ import numpy as np
 
 import asperity
 from helpers.cases import case
-from helpers.examples import TREAD
-from helpers.rubbers import prony
+from helpers.rubbers import prony, tread
 
 ROAD = asperity.SelfAffineSpectrum(rms_height=2e-4, hurst=0.8, q0=2e3, q1=2e4)
 RUBBER = prony(3e6, np.geomspace(2e8, 2e6, 9), np.geomspace(1e-8, 1e0, 9))
 LAW = asperity.WLF(c1=8.0, c2=110.0, reference_temperature=293.0)
-HEATING = asperity.Heating(**TREAD)
+HEATING = tread()
 AT = {"pressure": 2e5, "velocity": [1e-3, 0.1, 3.0]}
 
 

@@ -26,7 +26,7 @@ from asperity.scene.scene import load_scene
 from asperity.uncertainty.band import relative_band, swept_band
 from asperity.uncertainty.draws import Drawn, ShiftedRubber, drawn_rubber, drawn_spectrum
 from helpers.heat import HEATING, LAW
-from helpers.rubbers import prony
+from helpers.rubbers import curve_of, prony
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "stability"))
 from band_coverage import KINDS
@@ -206,30 +206,36 @@ def test_a_fitted_adhesion_brings_its_own_errors():
     assert (np.mean(inside, axis=0) >= 33 / 40).all()
 
 
-def failing(every):
-    """A rubber each n-th draw of which fails."""
+def failing(every, kind):
+    """A rubber each n-th draw of which fails, or is not known where it is asked."""
     count = 0
+    w = np.array([1e9, 1e10])
+    unknown = curve_of(w, RUBBER.modulus(w))
 
     def draw(rng):
         nonlocal count
         count += 1
-        if count % every == 0:
+        if kind == "draw" and count % every == 0:
             raise OutOfRange("velocity = 1: not measured")
-        return ShiftedRubber(RUBBER)
+        return ShiftedRubber(RUBBER if count % every else unknown)
 
     return Drawn(ShiftedRubber(RUBBER), draw)
 
 
-def test_a_band_says_how_many_draws_it_left_out():
+@pytest.mark.parametrize("kind", ["draw", "curve"])
+def test_a_band_says_how_many_draws_it_left_out(kind):
     parts = drawn_spectrum(measured_spectrum(3)), None, {"pressure": 2e5, "velocity": 1e-3}
     how = {"samples": 40, "seed": 1, "level": 0.9}
-    (note,) = relative_band(parts[0], failing(15), *parts[1:], **how).notes
-    assert note == (
-        "the band leaves out 2 of 40 draws that failed, the last with: velocity = 1: not measured"
+    alone, shared = (
+        relative_band(parts[0], failing(15, kind), *parts[1:], **how, threads=n) for n in (1, 3)
     )
-    assert relative_band(parts[0], failing(41), *parts[1:], **how).notes == ()
-    with pytest.raises(OutOfRange, match=r"^velocity = 1: not measured"):
-        relative_band(parts[0], failing(5), *parts[1:], **how)
+    np.testing.assert_array_equal([alone.lower, alone.upper], [shared.lower, shared.upper])
+    (note,) = alone.notes
+    assert shared.notes == (note,)
+    assert note.startswith("the band leaves out 2 of 40 draws that failed, the last with: velocity")
+    assert relative_band(parts[0], failing(41, kind), *parts[1:], **how).notes == ()
+    with pytest.raises(OutOfRange, match=r"^velocity = "):
+        relative_band(parts[0], failing(5, kind), *parts[1:], **how)
 
 
 def test_without_friction_the_band_has_no_width():

@@ -152,7 +152,8 @@ REFUSED = {  # several arguments that refuse the same stand in one key
     "contact_area": {**EVERYWHERE, "wavenumber": [*POSITIVE, [], [[1e4]]], "form": NAME},
     "mean_pressure": {**EVERYWHERE, "wavenumber": [*POSITIVE, [], [[1e4]]], "form": NAME},
     "correction_factor": {**EVERYWHERE, "wavenumber": [*POSITIVE, [], [[1e4]]], "form": NAME},
-    "friction": {**EVERYWHERE, "form": NAME},
+    "friction": {**EVERYWHERE, "form": NAME, "threads": [0, 1025]},
+    "friction_band friction_map": {"threads": [0, 1025]},
     "pressure_distribution": {**EVERYWHERE, "wavenumber": [*POSITIVE, 1e3], "stress": NOT_NEGATIVE},
     "Adhesion": {"shear_stress width": NOT_NEGATIVE, "reference_velocity": POSITIVE},
     "StrainFactors": {
@@ -179,7 +180,8 @@ SHORT = {  # three rows, as the bad values
 }
 BAD_VALUES = [
     pytest.param(call, argument, value, id=f"{call}-{argument}-{i}")
-    for call, arguments in REFUSED.items()
+    for calls, arguments in REFUSED.items()
+    for call in calls.split()
     for names, values in arguments.items()
     for argument in names.split()
     for i, value in enumerate(values)

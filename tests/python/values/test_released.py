@@ -19,9 +19,9 @@ from helpers.examples import (
     SLOW,
     SWEEPS,
     SWEPT,
-    TREAD,
     large_strain,
 )
+from helpers.rubbers import tread
 
 V = np.geomspace(1e-3, 0.9, 300)
 SCENE = {"pressure": 1e5, "velocity": V}
@@ -61,9 +61,7 @@ COMPUTING = {
         rtol=1e-2,
         checked=100,
     ),
-    "heat_kernel": partial(
-        asperity.heat_kernel, Q, 1e4, velocity=1.0, heating=asperity.Heating(**TREAD)
-    ),
+    "heat_kernel": partial(asperity.heat_kernel, Q, 1e4, velocity=1.0, heating=tread()),
     "line_spectrum": partial(asperity.line_spectrum, MAP),
     "mean_pressure": partial(asperity.mean_pressure, ROAD, SLOW, **SCENE),
     "merge_spectra": partial(asperity.merge_spectra, [LONG, LONG], per_decade=10),
