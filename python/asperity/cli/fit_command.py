@@ -21,7 +21,7 @@ from asperity.cli.friction_commands import (
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stderr
 from asperity.io import plausible
-from asperity.io.fields import in_keys, nearest
+from asperity.io.fields import in_keys, nearest, rename_in_errors
 from asperity.io.read_friction import read_friction
 from asperity.io.table import Table
 from asperity.plot import fit as plot_fit
@@ -60,12 +60,9 @@ def fit_of_scene(args: Namespace) -> None:
     outputs = check_outputs(args)
     scene = load_scene(args.scene, for_friction=True)
     refuse_overwrite(outputs, [*scene.sources, path])
-    try:
-        how = {"priors": dict(args.prior or []), "scatter": args.scatter}
+    how = {"priors": dict(args.prior or []), "scatter": args.scatter}
+    with rename_in_errors(None, {"free": "--free", "priors": "--prior", "scatter": "--scatter"}):
         made = fit_scene(scene, path, free=args.free or [], **how)
-    except InvalidInput as error:
-        options = {"free": "--free", "priors": "--prior", "scatter": "--scatter"}
-        raise error.said(partial(in_keys, names=options)) from error
     inputs = {**scene_inputs(scene), "measured": args.measured, **_found(made)}
     given = {key: getattr(made, name) for key, name in _OF_POINTS.items()}
     columns = {key: _cells(column) for key, column in given.items() if column is not None}

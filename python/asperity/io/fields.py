@@ -12,7 +12,7 @@ import numpy as np
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.base.arguments import shortened
-from asperity.base.diagnostics import Advice, Argument, Must, Sentence, Value, valued
+from asperity.base.diagnostics import Advice, Argument, Must, Sentence, Value, Words, valued
 from asperity.base.parameters import KEY_UNITS, Parameter, parameters
 from asperity.base.quantities import TEMPERATURE, Quantity
 from asperity.io import plausible
@@ -370,16 +370,23 @@ def inside(offer: Advice) -> tuple[float, float]:
 
 
 @contextmanager
+def saying(words: Words, path: Path | None = None) -> Iterator[None]:
+    """Let errors speak in words of an edge, of a file where one is named."""
+    try:
+        yield
+    except (InvalidInput, OutOfRange, NotConverged) as error:
+        said = error.said(words)
+        raise (said if path is None else said.within(path)) from error
+
+
+@contextmanager
 def rename_in_errors(
     path: Path | None, names: Mapping[str, str], inputs: Mapping[str, Any] | None = None
 ) -> Iterator[None]:
     """Let errors of the core name the file and its fields, with numbers of `inputs` as they were
     typed."""
-    try:
+    with saying(lambda sentence: as_typed(in_keys(sentence, names), inputs or {}), path):
         yield
-    except (InvalidInput, OutOfRange, NotConverged) as error:
-        renamed = error.said(lambda sentence: as_typed(in_keys(sentence, names), inputs or {}))
-        raise (renamed if path is None else renamed.within(path)) from error
 
 
 def names_of(section: str, fields: Mapping[str, Field]) -> dict[str, str]:

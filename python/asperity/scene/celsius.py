@@ -1,26 +1,22 @@
 """Temperatures of a scene in the unit that they were given in."""
 
-from collections.abc import Container, Iterator
-from contextlib import contextmanager
+from collections.abc import Container
+from contextlib import AbstractContextManager
 from functools import partial
 
-from asperity._core import InvalidInput, OutOfRange
 from asperity.base.diagnostics import Argument, Sentence, Unit, Value
 from asperity.base.quantities import ZERO_CELSIUS
+from asperity.io.fields import saying
 
 _NAMES = ("[conditions] temperature", "[rubber] temperature", "[rubber] reference_temperature")
 
 
-@contextmanager
-def celsius_in_errors(keys: Container[str]) -> Iterator[None]:
+def celsius_in_errors(keys: Container[str]) -> AbstractContextManager[None]:
     """Let errors have temperatures in C where `keys`, those of the scene, are in C.
 
     Behind the keys the scene's temperatures are in K, and so are errors that come from there.
     """
-    try:
-        yield
-    except (InvalidInput, OutOfRange) as error:
-        raise error.said(partial(_in_celsius, keys=keys)) from error
+    return saying(partial(_in_celsius, keys=keys))
 
 
 def all_in_celsius(sentence: Sentence) -> Sentence:

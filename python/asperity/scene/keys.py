@@ -101,8 +101,9 @@ CONDITIONS = {
 SOLVER = fields_of(friction, "rtol", "form", "method")
 NAMES = {**names_of("conditions", CONDITIONS), **names_of("solver", SOLVER)}
 UNCERTAINTY = fields_of(friction_band, "method", "samples", "seed", "level")
-# arguments that notes name
-NOTED = {**HEATING_NAMES, "heating": "[heating]", "strain_factors": "[rubber] strain"}
+# arguments that results name; rows of a spectrum have a density too
+NOTED = {name: key for name, key in HEATING_NAMES.items() if name != "density"}
+NOTED |= {"heating": "[heating]", "strain_factors": "[rubber] strain"}
 KEYS: dict[str, dict[str, Field]] = {  # of every table that a scene may have
     "surface": SURFACE,
     "rubber": RUBBER,

@@ -31,7 +31,6 @@ from asperity.rubber import Rubber
 from asperity.scan_contact import ScanContact
 from asperity.scene.celsius import all_in_celsius, celsius_in_errors
 from asperity.scene.keys import NAMES, NOTED, UNCERTAINTY, files_of
-from asperity.scene.parts import HEATING_NAMES
 from asperity.scene.progress import Progress as Progress
 from asperity.scene.progress import with_contacts
 from asperity.scene.rubber import BuiltRubber
@@ -238,11 +237,8 @@ class Scene:
         compute = self._friction
         if gradients:
             compute = partial(compute, gradients=True, **self._law)
-        named = {**self._names, **NOTED}
-        shifted = bool(gradients and self._law)
-        renamed = rename_in_errors(self.path, named, self.typed)
-        with self._explaining_range(), celsius_in_errors(self.typed), renamed:
-            result: Friction = self._at(compute, pressure, velocity, shifted)
+        with self._in_its_words():
+            result: Friction = self._at(compute, pressure, velocity, bool(gradients and self._law))
             return result
 
     @property
@@ -329,8 +325,7 @@ class Scene:
         """What the core's `compute` gives for each chunk of the points."""
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
-        renamed = rename_in_errors(self.path, self._names, self.typed)
-        with self._explaining_range(), celsius_in_errors(self.typed), renamed:
+        with self._in_its_words():
             try:
                 with with_contacts(progress, self.correction)(chunks) as shown:
                     return [self._at(compute, pressure[chunk], velocity[chunk]) for chunk in shown]
@@ -342,11 +337,14 @@ class Scene:
                 raise
 
     @contextmanager
-    def _explaining_range(self) -> Iterator[None]:
-        """Let an error on a range say at which temperature it is, and whether the spectrum did not
-        end where the scene wants."""
+    def _in_its_words(self) -> Iterator[None]:
+        """Let errors name its keys, and one on a range say at which temperature it is, and whether
+        the spectrum did not end where the scene wants."""
+        table = "rubber" if self.temperature is None else "conditions"
+        names = {**NAMES, "temperature": f"[{table}] temperature_k", **NOTED}
         try:
-            yield
+            with celsius_in_errors(self.typed), rename_in_errors(self.path, names, self.typed):
+                yield
         except OutOfRange as error:
             if error.code != "unknown-modulus":
                 raise
@@ -356,12 +354,6 @@ class Scene:
             for note in self.surface.notes:
                 more += ["; ", *note.sentence] if note.severity == FATAL else []
             raise error.followed_by(*more) from error
-
-    @property
-    def _names(self) -> Mapping[str, str]:
-        table = "rubber" if self.temperature is None else "conditions"
-        names = {**NAMES, "temperature": f"[{table}] temperature_k"}
-        return names | (HEATING_NAMES if self.heating else {})
 
     def _at(
         self,
