@@ -46,10 +46,6 @@ class Adhesion(CoreValue):
         v0 [m/s].
     width : float
         c of Eq. 23 [-].
-
-    Raises
-    ------
-    InvalidInput
     """
 
     shear_stress: float = parameter(SHEAR_STRESS, usual=(1e4, 1e8), shown_unit="MPa")

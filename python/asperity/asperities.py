@@ -99,10 +99,6 @@ def separation(
     -------
     Separation
 
-    Raises
-    ------
-    InvalidInput
-
     Notes
     -----
     d~ is no gap: it falls to -5 h_rms where the true gap is still positive. Beyond 3 h_rms the

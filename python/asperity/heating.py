@@ -41,10 +41,6 @@ class Heating(CoreValue):
     interface_share : float
         chi in [0, 1], the share of the adhesion's heat that enters the rubber; 1 for a road that
         insulates.
-
-    Raises
-    ------
-    InvalidInput
     """
 
     density: float = parameter(unit="kg/m^3")
@@ -78,10 +74,6 @@ def heat_kernel(q: ArrayLike, q_prime: ArrayLike, *, velocity: ArrayLike, heatin
     -------
     float or ndarray
         In the broadcast shape of wavenumbers and velocity.
-
-    Raises
-    ------
-    InvalidInput
 
     Examples
     --------

@@ -147,10 +147,6 @@ class PronySeries(_HasModulus, CoreValue):
     relaxation_times : array_like, shape (n,)
         tau_k [s], positive, in any order.
 
-    Raises
-    ------
-    InvalidInput
-
     Examples
     --------
     >>> from asperity import PronySeries
@@ -324,10 +320,6 @@ def effective_modulus(
     -------
     float or ndarray
         In the shape to which the arguments broadcast.
-
-    Raises
-    ------
-    InvalidInput
 
     Examples
     --------

@@ -101,10 +101,6 @@ class WLF(_Law, CoreValue):
     reference_temperature : float
         T_ref [K], where a_T = 1.
 
-    Raises
-    ------
-    InvalidInput
-
     Examples
     --------
     >>> from asperity import WLF
@@ -243,10 +239,6 @@ class ShiftFactors(HasShiftFactors):
         [-]; above 0 below T_ref.
     standard_deviation : array_like, shape (n,), optional
         That of log10_a_T [-].
-
-    Raises
-    ------
-    InvalidInput
     """
 
     reference_temperature: float

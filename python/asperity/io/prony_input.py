@@ -36,10 +36,6 @@ def prony_input(
     -------
     str
 
-    Raises
-    ------
-    InvalidInput
-
     Examples
     --------
     >>> from asperity import PronySeries, prony_input
