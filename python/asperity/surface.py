@@ -306,6 +306,9 @@ class LineScan(_Surface):
         axes.set(xlabel=f"$x$ [{length_unit}]", ylabel=f"height [{height_unit}]")
 
 
+Scan = HeightMap | LineScan
+
+
 def draw_map(
     axes: Any,
     shown: NDArray[Any],

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from asperity.base.arguments import Array
 
 _PRUNED = 0.05  # of Sz: hills that are less high above their saddles are none (ISO 25178-3)
 _MOST = 2**22  # points of a map whose hills are counted

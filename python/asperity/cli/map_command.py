@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base import quantities
-from asperity.base.arguments import FilePath, reading
+from asperity.base.arguments import Array, FilePath, reading
 from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
 from asperity.cli.options import typed_options
@@ -139,9 +138,7 @@ def _check_sides(args: Namespace, scene: Scene) -> None:
         plausible.check("--velocity", args.velocity, quantities.VELOCITY)
 
 
-def _errors(
-    made: FrictionMap, scene: Scene, pressure: NDArray[np.float64], velocity: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _errors(made: FrictionMap, scene: Scene, pressure: Array, velocity: Array) -> Array:
     """|mu of the map / mu of the solver - 1| at pressures in a column and velocities in a row."""
     options = {**scene.options, "rtol": _TRUTH, "correction": scene.correction}
     heat, at = heat_of_map(scene), {}
@@ -154,7 +151,7 @@ def _errors(
         rows
     ) as each:
         truth = np.concatenate([compute(pressure=pressure[row]).mu for row in each])
-    mu: NDArray[np.float64] = made.mu(pressure, velocity, **at)
+    mu: Array = made.mu(pressure, velocity, **at)
     # a rubber without loss and without adhesion has no friction to be off by
     ratio = np.divide(mu, truth, out=np.ones_like(mu), where=truth > 0)
     return np.asarray(np.abs(ratio - 1))

@@ -20,7 +20,7 @@ from asperity.base.quantities import LENGTH_UNITS, SPACING
 from asperity.base.table import to_install
 from asperity.io.archive import Archive
 from asperity.io.fields import rename_in_errors
-from asperity.surface import HeightMap, LineScan
+from asperity.surface import HeightMap, LineScan, Scan
 
 METRES = {unit: factor for unit, (factor, _) in LENGTH_UNITS.items()}
 
@@ -63,7 +63,7 @@ def _plain(unit: str) -> str:
     return re.sub("^[\u00b5\u03bc]m$", "um", unit)
 
 
-def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> HeightMap | LineScan:
+def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> Scan:
     """The map or line scan of heights in units of `metres`; float32 stays float32."""
     if heights.ndim not in (1, 2):
         raise must_have(
@@ -102,7 +102,7 @@ def read_instrument(
     unit: str | None,
     *,
     must_state_unit: bool = False,
-) -> HeightMap | LineScan:
+) -> Scan:
     """One channel of a file; UnrecognisedError where SurfaceTopography makes nothing of it."""
     import logging  # here: `import asperity` is to be quick
 
@@ -174,7 +174,7 @@ def scans_of_container(path: Path) -> list[Any]:
         ]
 
 
-def read_container(path: Path, channel: int, unit: str | None) -> HeightMap | LineScan:
+def read_container(path: Path, channel: int, unit: str | None) -> Scan:
     """One scan of such an archive; `channel` counts them."""
     import gc  # here, as logging
 
@@ -194,7 +194,7 @@ def read_container(path: Path, channel: int, unit: str | None) -> HeightMap | Li
 
 def _read_channel(
     reader: Any, channel: int, pixel_size: PixelSize | None, unit: str | None
-) -> HeightMap | LineScan:
+) -> Scan:
     check_channel(channel, len(reader.channels))
     info = reader.channels[channel]
     if not info.is_height_channel:
@@ -221,9 +221,7 @@ def _coarse(info: Any) -> bool:
     return SPACING.high is not None and float(np.max(steps)) > SPACING.high.value
 
 
-def of_topography(
-    topography: Any, metres: float | None, pixel_size: PixelSize | None
-) -> HeightMap | LineScan:
+def of_topography(topography: Any, metres: float | None, pixel_size: PixelSize | None) -> Scan:
     """An object of SurfaceTopography; `metres` and `pixel_size` where it knows none itself."""
     if not topography.is_uniform:
         check_equal_distances(np.asarray(topography.positions()))

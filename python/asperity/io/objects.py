@@ -19,7 +19,7 @@ from asperity.io.instrument import (
 )
 from asperity.io.instrument import surface_of as made
 from asperity.io.positions import surface_at
-from asperity.surface import HeightMap, LineScan
+from asperity.surface import Scan
 
 
 def is_frame(candidate: Any) -> bool:
@@ -38,7 +38,7 @@ def frame_of(candidate: Any) -> Any:
 
 def surface_from(
     candidate: Any, pixel_size: PixelSize | None = None, unit: str | None = None
-) -> HeightMap | LineScan | None:
+) -> Scan | None:
     """The surface that an object of another library is; None of what is none.
 
     A Topography or line scan of SurfaceTopography; an `xarray.DataArray` along x, or along y and x,
@@ -64,7 +64,7 @@ def surface_from(
     return None
 
 
-def _of_xarray(array: Any, pixel_size: PixelSize | None, unit: str | None) -> HeightMap | LineScan:
+def _of_xarray(array: Any, pixel_size: PixelSize | None, unit: str | None) -> Scan:
     stated = array.attrs.get("units")
     if stated is not None:
         left_out("unit", unit, "object")
@@ -89,7 +89,7 @@ def _of_xarray(array: Any, pixel_size: PixelSize | None, unit: str | None) -> He
     return made(np.array(array.values), METRES[checked_unit(of_heights)], pixel_size)
 
 
-def _of_frame(frame: Any, pixel_size: PixelSize | None, unit: str | None) -> HeightMap | LineScan:
+def _of_frame(frame: Any, pixel_size: PixelSize | None, unit: str | None) -> Scan:
     names = [name for name in ("x", "y") if name in frame.columns]
     heights = [name for name in ("height", "z") if name in frame.columns]
     if "x" not in names or len(heights) != 1:

@@ -27,6 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
+from asperity.base.arguments import Array
 from asperity.base.diagnostics import MUST_BE, Argument, Note, Sentence, Value, valued
 from asperity.base.quantities import (
     LENGTH_UNITS,
@@ -229,7 +230,7 @@ def _keep(note: Note) -> None:
         notes.append(note)
 
 
-def _in_si(numbers: NDArray[np.float64], quantity: Quantity, unit: str) -> NDArray[np.float64]:
+def _in_si(numbers: Array, quantity: Quantity, unit: str) -> Array:
     factor, offset = quantity.units[unit]
     si = factor * numbers + offset
     return si if quantity.units is TEMPERATURE_UNITS else np.abs(si)

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import Array
 from asperity.base.diagnostics import MUST_BE, Argument, must_be, refusal
 from asperity.io.instrument import METRES, PixelSize, check_equal_distances, left_out, surface_of
-from asperity.surface import HeightMap, LineScan
+from asperity.surface import Scan
 
 FEWEST = 10  # rows of 2 or 3 numbers that are no map: no spectrum is that of so narrow a one
 _OFF = 0.05  # of the step: how far a point may lie from its place on the grid
@@ -36,7 +37,7 @@ def _stated(names: Sequence[str], columns: int) -> tuple[str | None, str | None]
 
 def surface_at(
     matrix: NDArray[Any], pixel_size: PixelSize | None, unit: str | None, names: Sequence[str]
-) -> HeightMap | LineScan:
+) -> Scan:
     """The line scan of rows x, z or the map of rows x, y, z at equal steps.
 
     Positions are in the unit of the heights, unless the file states one, or `pixel_size` [m] is the
@@ -77,7 +78,7 @@ def surface_at(
     return surface_of(np.array(heights), METRES[unit], sides)
 
 
-def _steps(x: NDArray[np.float64]) -> tuple[float, NDArray[np.int64]]:
+def _steps(x: Array) -> tuple[float, NDArray[np.int64]]:
     """The step of equally spaced positions, and the place of each."""
     gaps = np.diff(np.unique(x))
     if gaps.size == 0:

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import Array
 from asperity.base.diagnostics import Note
 from asperity.io import plausible
 from asperity.io.columns import Columns
@@ -69,7 +70,7 @@ def isotherms_of_ramp(table: Columns) -> list[Isotherm]:
     at = np.arange(len(curves)) * parts
     every = np.interp(np.arange(at[-1] + 1), at, ln_w)
 
-    def moduli(name: str, temperature: float) -> NDArray[np.float64]:
+    def moduli(name: str, temperature: float) -> Array:
         ln = [np.interp(temperature, one["temperature"], np.log(one[name])) for one in curves]
         return np.asarray(np.exp(np.interp(every, ln_w, ln)))
 

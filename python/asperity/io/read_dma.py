@@ -5,9 +5,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import Array
 from asperity.io.columns import Columns, Names
 from asperity.io.declared import Paths, file_of, files_of, read_declared, young
 from asperity.io.ramps import STEP, is_ramp, isotherms_of_ramp, without_other_tests
@@ -94,7 +94,7 @@ def _isotherm(table: Columns) -> Isotherm:
         raise error.within(f"isotherm in {table.span()}: ").within(table.path) from error
 
 
-def _mean(values: NDArray[np.float64]) -> float:
+def _mean(values: Array) -> float:
     """Of numbers that are all the same, that number to its last digit: who types it is inside."""
     return float(values[0] + np.mean(values - values[0]))
 

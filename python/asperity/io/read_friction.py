@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base import quantities
-from asperity.base.arguments import choice, path_of, real_array
+from asperity.base.arguments import Array, choice, path_of, real_array
 from asperity.base.diagnostics import MUST_BE, must_be
 from asperity.io import plausible
 from asperity.io.column_names import cells_of
@@ -39,10 +38,10 @@ _OPTIONAL = ("pressure", "temperature")
 class MeasuredFriction:
     """Points of a friction measurement, arrays of shape (n,)."""
 
-    velocity: NDArray[np.float64]  # [m/s]
-    mu: NDArray[np.float64]  # [-]
-    pressure: NDArray[np.float64] | None = None  # [Pa], None where the file has none
-    temperature: NDArray[np.float64] | None = None  # [K], so too
+    velocity: Array  # [m/s]
+    mu: Array  # [-]
+    pressure: Array | None = None  # [Pa], None where the file has none
+    temperature: Array | None = None  # [K], so too
 
 
 def measured_friction(measured: Any) -> tuple[MeasuredFriction, Path]:

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import Array
 from asperity.base.diagnostics import Argument, Note
 from asperity.io import plausible
 from asperity.io.columns import Columns, Names
@@ -104,7 +104,7 @@ def read_master_curve(
         raise error.within(file) from error
 
 
-def _log10_a_t(shift: TemperatureShift, temperature: NDArray[np.float64]) -> Any:
+def _log10_a_t(shift: TemperatureShift, temperature: Array) -> Any:
     if isinstance(shift, HasShiftFactors):
         return np.log10(shift.shift_factor(temperature))
     return shift.log10_a_T(temperature)

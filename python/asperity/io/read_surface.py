@@ -31,7 +31,7 @@ from asperity.io.instrument import (
 from asperity.io.objects import surface_from
 from asperity.io.positions import FEWEST, has_positions, surface_at
 from asperity.io.source import WORKBOOKS, text_lines
-from asperity.surface import HeightMap, LineScan
+from asperity.surface import HeightMap, Scan
 
 _TEXT = (".csv", ".txt", ".xyz", *WORKBOOKS)
 _MOST_HEADER = 50  # lines above rows of positions
@@ -43,7 +43,7 @@ def read_surface(
     channel: int = 0,
     pixel_size: PixelSize | None = None,
     unit: str | None = None,
-) -> HeightMap | LineScan:
+) -> Scan:
     """Height map h(y, x) or line scan h(x) [m] from a file, or from an object of another library.
 
     Matrices in .npy, .npz, .csv, .txt and workbooks (.xlsx, .xls) are read directly. Such files
@@ -109,9 +109,7 @@ def read_surface(
     return surface
 
 
-def _read(
-    path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None
-) -> HeightMap | LineScan:
+def _read(path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None) -> Scan:
     suffix = path.suffix.lower()
     if suffix == ".toml":
         raise must_be(
@@ -168,9 +166,7 @@ def _load_npz(path: Path, channel: int) -> NDArray[Any]:
 _LOADERS = {".npy": _load_npy, ".npz": _load_npz}
 
 
-def _read_text(
-    path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None
-) -> HeightMap | LineScan:
+def _read_text(path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None) -> Scan:
     """A matrix of numbers, or what SurfaceTopography knows and finds the unit of."""
     names: list[str] = []
     try:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
+from asperity.base.arguments import Array
 from asperity.base.diagnostics import Note, fatal_first, must_have
 from asperity.io.read_friction import MeasuredFriction
 from asperity.results.friction import Friction
@@ -20,7 +21,6 @@ from asperity.scene.model import Scene
 from asperity.scene.scene import scene_of
 from asperity.scene.unknowns import Unknown, with_numbers
 
-Array = NDArray[np.float64]
 FAILURES = (InvalidInput, OutOfRange, NotConverged)
 _MOST_KEPT = 64
 _OWN = ("temperature_k", "temperature_c")

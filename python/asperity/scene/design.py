@@ -7,10 +7,10 @@ from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
+from asperity.base.arguments import Array
 from asperity.results.friction import Friction
 from asperity.results.gradients import DENSITIES, SEVERAL, Gradients
 from asperity.scan_contact import ScanContact
@@ -69,7 +69,7 @@ def design(scene: Scene) -> Design:
     return Design(result, tuple(rows))
 
 
-def design_at_largest(scene: Scene, mu: NDArray[np.float64]) -> Design | None:
+def design_at_largest(scene: Scene, mu: Array) -> Design | None:
     """Return the design at the point of the largest mu; None where a scene has no slopes, or none
     but by contacts of its scan that nobody has solved."""
     if isinstance(scene.correction, ScanContact):
@@ -123,9 +123,7 @@ def _at_point(
             yield Worth(*point, name, "10 %", None, None, None, MORE * float(slope[i]))
 
 
-def by_decade(
-    rows: NDArray[np.float64], density: NDArray[np.float64]
-) -> tuple[list[float], NDArray[np.float64]]:
+def by_decade(rows: Array, density: Array) -> tuple[list[float], Array]:
     """Return powers of ten and the integral of a density over the logarithm between them, which is
     linear between rows; decades with less than a thousandth of all are left out at the ends."""
     x = np.log(rows)

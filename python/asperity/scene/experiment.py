@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.adhesion import Adhesion, AdhesionFit, fit_adhesion
+from asperity.base.arguments import Array
 from asperity.base.diagnostics import must_have
 from asperity.base.parameters import parameters
 from asperity.io.fields import in_keys
@@ -35,7 +36,7 @@ class Fitted:
     curves: SceneFriction
 
 
-def pressures(scene: Scene, measured: MeasuredFriction, path: Path) -> NDArray[np.float64]:
+def pressures(scene: Scene, measured: MeasuredFriction, path: Path) -> Array:
     """Of every measured point [Pa]: the file's, or the scene's only one."""
     if measured.pressure is not None:
         return measured.pressure
@@ -49,7 +50,7 @@ def pressures(scene: Scene, measured: MeasuredFriction, path: Path) -> NDArray[n
     return np.full(measured.mu.shape, scene.pressure[0])
 
 
-def nearest_pressure(scene: Scene, pressure: NDArray[np.float64]) -> NDArray[np.int64]:
+def nearest_pressure(scene: Scene, pressure: Array) -> NDArray[np.int64]:
     """Which of the scene's pressures is nearest to each, by its ratio."""
     distance = np.abs(np.log(pressure[:, None] / scene.pressure))
     return np.asarray(distance.argmin(axis=1))
@@ -61,12 +62,10 @@ class Experiment:
 
     path: Path
     measured: MeasuredFriction
-    pressure: NDArray[np.float64]  # of every point [Pa]
+    pressure: Array  # of every point [Pa]
     held: Mapping[str, float]  # by the names that files give them
 
-    def fit(
-        self, scene: Scene, spectrum: Spectrum, rubber: Rubber, mu: NDArray[np.float64]
-    ) -> AdhesionFit:
+    def fit(self, scene: Scene, spectrum: Spectrum, rubber: Rubber, mu: Array) -> AdhesionFit:
         """The adhesion that `mu` at the measured points asks for."""
         return fit_adhesion(
             spectrum,

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
-from asperity.base.arguments import frozen, number, path_of
+from asperity.base.arguments import Array, frozen, number, path_of
 from asperity.base.diagnostics import Argument, Note, fatal_first, must_have, refusal
 from asperity.base.table import imported
 from asperity.io.read_friction import MeasuredFriction, measured_friction
-from asperity.scene.at_points import Array, AtPoints, Prediction, Slopes, predicted, sentence_on
+from asperity.scene.at_points import AtPoints, Prediction, Slopes, predicted, sentence_on
 from asperity.scene.model import Scene
 from asperity.scene.scene import check_tables, read_tables
 from asperity.scene.scene_fit import SceneFit

@@ -3,10 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from asperity.base.arguments import known
+from asperity.base.arguments import Array, known
 from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.rubber import Rubber
 from asperity.scene.model import Scene
@@ -38,7 +35,7 @@ def rubber_of_map(scene: Scene) -> Rubber:
 
 
 def side_of_map(
-    name: str, sides: Sequence[float] | None, swept: NDArray[np.float64], notes: list[Note]
+    name: str, sides: Sequence[float] | None, swept: Array, notes: list[Note]
 ) -> tuple[float, float]:
     """The sides of the map: as asked for, else as the scene sweeps."""
     if sides is not None:

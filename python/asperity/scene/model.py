@@ -10,11 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity._core import OutOfRange, extrapolation_notes
 from asperity.adhesion import Adhesion, AdhesionFit
-from asperity.base.arguments import known
+from asperity.base.arguments import Array, known
 from asperity.base.codes import FATAL, NOTES
 from asperity.base.diagnostics import Note, fatal_first
 from asperity.base.quantities import temperature_text
@@ -54,7 +53,7 @@ _KNOWN_TO_SCANS = {"lines-in-spectrum", "heights-not-gaussian", "gathered-waves"
 class SceneFriction(Friction):
     """Friction of a scene, arrays of shape (pressures, velocities), perhaps with a band on mu."""
 
-    band: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None  # lower and upper mu
+    band: tuple[Array, Array] | None = None  # lower and upper mu
 
     def within(self, band: Bounds) -> "SceneFriction":
         """The same with a band on mu, and what there is to say of it."""
@@ -73,8 +72,8 @@ class Scene:
     path: Path
     surface: Surface
     built_rubber: BuiltRubber
-    pressure: NDArray[np.float64]  # [Pa], shape (n,)
-    velocity: NDArray[np.float64]  # [m/s], shape (m,)
+    pressure: Array  # [Pa], shape (n,)
+    velocity: Array  # [m/s], shape (m,)
     correction: Correction | None
     adhesion: Adhesion | None
     options: Mapping[str, Any]  # poisson_ratio, rtol, form, method
@@ -174,7 +173,7 @@ class Scene:
         return [self.path, *(self.path.parent / name for name in files_of(self.inputs))]
 
     @property
-    def points(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def points(self) -> tuple[Array, Array]:
         """Every pressure with every velocity, flat; a pressure's velocities side by side."""
         pressure, velocity = np.meshgrid(self.pressure, self.velocity, indexing="ij")
         return pressure.ravel(), velocity.ravel()
@@ -225,13 +224,7 @@ class Scene:
             return {}
         return {"temperature": built.temperature, "shift": built.shift}
 
-    def friction_at(
-        self,
-        pressure: NDArray[np.float64],
-        velocity: NDArray[np.float64],
-        *,
-        gradients: bool = False,
-    ) -> Friction:
+    def friction_at(self, pressure: Array, velocity: Array, *, gradients: bool = False) -> Friction:
         """Friction at points of one's own, in one call; errors name the scene's keys. With slopes
         the rubber is that of the reference, shifted, which tells the slope over T."""
         compute = self._friction
@@ -264,10 +257,7 @@ class Scene:
         return self.surface.drawn.draw is not None or self.built_rubber.drawn.draw is not None
 
     def band(
-        self,
-        mu: NDArray[np.float64],
-        progress: Progress = nullcontext,
-        refit: DrawAdhesion | None = None,
+        self, mu: Array, progress: Progress = nullcontext, refit: DrawAdhesion | None = None
     ) -> Bounds:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
         with self._inputs() as (surface, rubber, adhesion, options):
@@ -284,7 +274,7 @@ class Scene:
             )
         return Bounds(mu * band.lower, mu * band.upper, band.notes)
 
-    def band_at(self, pressure: NDArray[np.float64], velocity: NDArray[np.float64]) -> Bounds:
+    def band_at(self, pressure: Array, velocity: Array) -> Bounds:
         """The band at points of one's own, over their mu."""
         with self._inputs() as (surface, rubber, adhesion, options):
             options |= {"pressure": pressure, "velocity": velocity}
@@ -306,12 +296,10 @@ class Scene:
         with rename_in_errors(self.path, {**NAMES, **_SAMPLING}, self.typed):
             yield self.surface.drawn, rubber, self.adhesion, options
 
-    def contact_area(
-        self, wavenumber: NDArray[np.float64], progress: Progress = nullcontext
-    ) -> NDArray[np.float64]:
+    def contact_area(self, wavenumber: Array, progress: Progress = nullcontext) -> Array:
         """A/A0 of shape (pressures, velocities, wavenumbers); `progress` as in `friction`."""
         compute = partial(contact_area, wavenumber=wavenumber, **self.options)
-        parts: list[NDArray[np.float64]] = self._at_points(compute, progress)
+        parts: list[Array] = self._at_points(compute, progress)
         return np.concatenate(parts).reshape(self.pressure.size, self.velocity.size, -1)
 
     def contact_notes(self) -> list[Note]:
@@ -356,11 +344,7 @@ class Scene:
             raise error.followed_by(*more) from error
 
     def _at(
-        self,
-        compute: Callable[..., Any],
-        pressure: NDArray[np.float64],
-        velocity: NDArray[np.float64],
-        shifted: bool = False,
+        self, compute: Callable[..., Any], pressure: Array, velocity: Array, shifted: bool = False
     ) -> Any:
         shifted |= self.heating is not None
         rubber = self.built_rubber.at_reference if shifted else self.rubber
@@ -372,14 +356,12 @@ class Scene:
             correction=self.correction,
         )
 
-    def pressure_distribution(
-        self, stress: NDArray[np.float64], wavenumber: float
-    ) -> NDArray[np.float64]:
+    def pressure_distribution(self, stress: Array, wavenumber: float) -> Array:
         """P(sigma) [1/Pa] at the first pressure and velocity; only the exact form has one."""
         kept = self.options.keys() - {"form", "direction"}
         options = {key: self.options[key] for key in kept}
         with rename_in_errors(self.path, NAMES, self.typed):
-            density: NDArray[np.float64] = pressure_distribution(
+            density: Array = pressure_distribution(
                 stress,
                 self.spectrum,
                 self.rubber,

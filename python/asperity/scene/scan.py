@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
+from asperity.base.arguments import Array
 from asperity.base.diagnostics import Note, must_be
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import NO_DIRECTIONS, Window, line_spectrum, power_spectrum
@@ -19,8 +19,7 @@ from asperity.plane_spectrum import anisotropy
 from asperity.results.directions import LAY as LAY
 from asperity.spectrum import Spectrum, TabulatedSpectrum
 from asperity.surface import Detrend, HeightMap, LineScan
-
-Scan = HeightMap | LineScan
+from asperity.surface import Scan as Scan
 
 _WORN = -0.4  # skewness below which exact contacts differ from those of the spectrum by 20 %
 _BINS = (10.0, 7.0, 5.0, 3.0)  # a decade, for the spectrum of a line scan
@@ -173,9 +172,7 @@ def line_notes(spectrum: TabulatedSpectrum, cut: float | None = None) -> list[No
     return [Note(text, code="lines-in-spectrum", next_step=step)]
 
 
-def _line_at(
-    q: NDArray[np.float64], times: NDArray[np.float64], cut: float
-) -> tuple[float, float] | None:
+def _line_at(q: Array, times: Array, cut: float) -> tuple[float, float] | None:
     """The sound rows at both sides of lines [1/m] that are cut, if they are."""
     lines = np.pad(times > _LINE, _BESIDE)
     reached = lines | np.roll(lines, 1) | np.roll(lines, -1)  # C(q) is straight between rows
@@ -218,7 +215,7 @@ def noise_floor(spectrum: TabulatedSpectrum) -> float | None:
     return float(q[middle][drowned][0]) if drowned.any() else None
 
 
-def _exponent(q: NDArray[np.float64], density: NDArray[np.float64]) -> tuple[float, float]:
+def _exponent(q: Array, density: Array) -> tuple[float, float]:
     """That of the power law through the rows, and its standard error by their scatter."""
     x, y = np.log(q) - np.log(q).mean(), np.log(density) - np.log(density).mean()
     exponent = (x @ y) / (x @ x)

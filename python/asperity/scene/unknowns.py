@@ -7,11 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
 from asperity._core import InvalidInput
-from asperity.base.arguments import choice, number, shortened
+from asperity.base.arguments import Array, choice, number, shortened
 from asperity.base.diagnostics import MUST_BE, Argument, must_be, refusal
 from asperity.io.fields import Field, count, nearest
 from asperity.results.gradients import Gradients
@@ -199,7 +196,7 @@ def _prior(key: str, given: Any) -> Prior:
 
 
 def with_numbers(
-    tables: Mapping[str, Any], unknowns: Sequence[Unknown], inside: NDArray[np.float64]
+    tables: Mapping[str, Any], unknowns: Sequence[Unknown], inside: Array
 ) -> dict[str, Any]:
     """Return tables of a scene with the numbers of these coordinates."""
     changed = {name: dict(table) for name, table in tables.items()}

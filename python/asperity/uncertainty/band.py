@@ -5,12 +5,13 @@ from contextlib import AbstractContextManager, nullcontext
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.adhesion import Adhesion, AdhesionFit, adhesion_core
 from asperity.base.arguments import (
     MOST_THREADS,
+    Array,
     Shape,
     broadcast,
     choice,
@@ -58,8 +59,8 @@ _FAILED = 0.1  # share of draws that may fail: without more of them a band would
 class Bounds(NamedTuple):
     """The two ends of a band, and what there is to say of it."""
 
-    lower: NDArray[np.float64]
-    upper: NDArray[np.float64]
+    lower: Array
+    upper: Array
     notes: tuple[Note, ...]
 
 
@@ -364,8 +365,8 @@ def swept_band(
     spectrum: Drawn[Spectrum],
     rubber: Drawn[ShiftedRubber],
     adhesion: Adhesion | None,
-    pressure: NDArray[np.float64],
-    velocity: NDArray[np.float64],
+    pressure: Array,
+    velocity: Array,
     options: dict[str, Any],
     **sampling: Any,
 ) -> Bounds:
@@ -378,7 +379,7 @@ def swept_band(
     points = {"pressure": p.ravel(), "velocity": v.ravel()}
     band = relative_band(spectrum, rubber, adhesion, {**options, **points}, **sampling)
 
-    def everywhere(bound: NDArray[np.float64]) -> NDArray[np.float64]:
+    def everywhere(bound: Array) -> Array:
         rows = bound.reshape(p.shape)
         return np.array([np.interp(np.log(velocity), np.log(few), row) for row in rows])
 

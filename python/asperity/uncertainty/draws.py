@@ -6,10 +6,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity.adhesion import Adhesion, AdhesionFit
-from asperity.base.arguments import known
+from asperity.base.arguments import Array, known
 from asperity.dma import MasterCurveBuild, draw_master_curve
 from asperity.rubber import Rubber
 from asperity.self_affine_fit import SelfAffineFit
@@ -61,7 +60,7 @@ def drawn_spectrum(source: Spectrum | SelfAffineFit) -> Drawn[Spectrum]:
     return Drawn[Spectrum](source)
 
 
-def row_covariance(table: TabulatedSpectrum) -> NDArray[np.float64]:
+def row_covariance(table: TabulatedSpectrum) -> Array:
     """Of ln C of the rows, by their standard errors and correlation."""
     density, error = np.array(table.density), np.asarray(table.standard_error)
     relative = np.divide(error, density, out=np.zeros_like(density), where=density > 0)
@@ -71,7 +70,7 @@ def row_covariance(table: TabulatedSpectrum) -> NDArray[np.float64]:
             first = np.arange(density.size - lag)
             pair = column[first] * relative[first] * relative[first + lag]
             covariance[first, first + lag] = covariance[first + lag, first] = pair
-    logarithm: NDArray[np.float64] = np.log1p(covariance)
+    logarithm: Array = np.log1p(covariance)
     return logarithm
 
 
@@ -119,11 +118,11 @@ def rows_like(
     )
 
 
-def fit_covariance(fit: SelfAffineFit) -> NDArray[np.float64]:
+def fit_covariance(fit: SelfAffineFit) -> Array:
     """Of ln of the rms height, of H and, where there is one, of ln of the roll-off."""
     scale = np.array([fit.rms_height, 1, fit.rolloff or 1])[: 2 if fit.rolloff is None else 3]
-    covariance: NDArray[np.float64] = fit.covariance[: scale.size, : scale.size]
-    scaled: NDArray[np.float64] = covariance / np.outer(scale, scale)
+    covariance: Array = fit.covariance[: scale.size, : scale.size]
+    scaled: Array = covariance / np.outer(scale, scale)
     return scaled
 
 
@@ -169,7 +168,7 @@ def draw_build(build: MasterCurveBuild, rng: Generator) -> MasterCurveBuild:
     return draw_master_curve(build, int(rng.integers(2**63)))
 
 
-def adhesion_covariance(fit: AdhesionFit) -> NDArray[np.float64]:
+def adhesion_covariance(fit: AdhesionFit) -> Array:
     """Of ln tau_f0, ln v0 and c."""
     scale = np.array([fit.shear_stress, fit.reference_velocity, 1])
     return fit.covariance / np.outer(scale, scale)
@@ -209,5 +208,5 @@ def draw_strain(factors: StrainFactors | None, rng: Generator) -> StrainFactors 
     )
 
 
-def _errors(error: NDArray[np.float64] | None) -> Any:
+def _errors(error: Array | None) -> Any:
     return 0.0 if error is None else error

@@ -8,11 +8,10 @@ from statistics import NormalDist
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, AdhesionFit
-from asperity.base.arguments import number
+from asperity.base.arguments import Array, number
 from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.dma import MasterCurveBuild, master_curve_modes, rubber_of
 from asperity.friction import Friction, friction
@@ -31,7 +30,6 @@ from asperity.uncertainty.draws import (
     rows_like,
 )
 
-Array = NDArray[np.float64]
 MOST_CURVED = 0.5  # standard deviations by which signs of all modes may be off the slopes
 _LEAST = 1e-4  # of ln mu: rtol of bands
 

@@ -3,8 +3,8 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from asperity.base.arguments import Array
 from asperity.results.friction import Friction
 from asperity.scan_contact import ScanContact
 from asperity.spectrum import Spectrum, TabulatedSpectrum
@@ -58,16 +58,16 @@ class HeldScan:
         """How another scan differs, in its standard errors."""
         return float(next(self._scatter))
 
-    def mu(self, rule: Friction, scatter: float) -> NDArray[np.float64]:
+    def mu(self, rule: Friction, scatter: float) -> Array:
         of_hysteresis, of_area = self._ratio
-        mu: NDArray[np.float64] = of_hysteresis * rule.hysteresis + of_area * rule.adhesion
+        mu: Array = of_hysteresis * rule.hysteresis + of_area * rule.adhesion
         mu *= np.exp(scatter * self._error)
         return mu
 
 
-def _scatter(samples: int) -> NDArray[np.float64]:
+def _scatter(samples: int) -> Array:
     """Quantiles of Student's t of three degrees of freedom: four quarters tell the error."""
     t = np.sinh(np.linspace(-8, 8, 4001))
     share = 0.5 + (t / np.sqrt(3) / (1 + t**2 / 3) + np.arctan(t / np.sqrt(3))) / np.pi
-    result: NDArray[np.float64] = np.interp((np.arange(samples) + 0.5) / samples, share, t)
+    result: Array = np.interp((np.arange(samples) + 0.5) / samples, share, t)
     return result
