@@ -12,13 +12,12 @@ from asperity.base.arguments import (
     Conversion,
     Vector,
     choice,
-    number,
     number_or_none,
     of_kind,
 )
 from asperity.base.diagnostics import Note
 from asperity.base.table import Columns
-from asperity.base.value import around, like, value
+from asperity.base.value import around, value
 from asperity.dma import MasterCurveBuild
 from asperity.rubber import MasterCurve, PronySeries
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
@@ -78,13 +77,6 @@ class PronyFit(PronySeries):
         self._set(_core=plain._core.fitted_on(*known))
         if self.shift_factors is not None:
             self._set(shift_factors=shift_factors_of(self.shift_factors))
-
-    def shifted(self, a_T: float) -> "PronyFit":  # noqa: N803
-        """Return the fit at another temperature: E(w) becomes E(a_T w), fitted on w / a_T.
-
-        The new fit has no `shift_factors`.
-        """
-        return like(self, self._core.shifted(number(a_T, "a_T")), shift_factors=None)
 
     def _drawn_range(self) -> tuple[float, float]:
         return self.lowest_frequency, self.highest_frequency

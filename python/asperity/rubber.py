@@ -3,7 +3,7 @@
 import warnings
 from collections.abc import Callable, Iterable, Mapping
 from functools import cached_property
-from typing import Any, ClassVar, Literal, get_args
+from typing import Any, ClassVar, Literal, Self, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,7 +28,7 @@ from asperity.base.diagnostics import Argument, Note
 from asperity.base.parameters import column, parameter
 from asperity.base.quantities import RELAXED_MODULUS
 from asperity.base.table import Column, Columns, Table
-from asperity.base.value import CoreValue, around, like, value
+from asperity.base.value import CoreValue, like, value
 from asperity.shift_factors import HasShiftFactors, ShiftFactors, shift_factors_of
 from asperity.sweeps import StrainSweep, draw_moduli
 
@@ -63,6 +63,15 @@ class _HasModulus(Table):
         Outside of its range a measured master curve raises OutOfRange, and so does a fit.
         """
         return over(angular_frequency, "angular_frequency", self._core.modulus)
+
+    def shifted(self, a_T: float) -> Self:  # noqa: N803
+        """Return the rubber at another temperature: E(w) becomes E(a_T w), a_T > 1 is colder.
+
+        The frequencies of a measurement or a fit become w / a_T; the new rubber has no
+        `shift_factors`.
+        """
+        held = {"shift_factors": None} if "shift_factors" in self._beside else {}
+        return like(self, self._core.shifted(number(a_T, "a_T")), **held)
 
     def angular_integrals(self, angular_frequency: ArrayLike) -> tuple[Any, Any]:
         """Return (I1 [Pa], I2 [Pa^2]) at an `angular_frequency` w = v q [rad/s] of any shape.
@@ -164,10 +173,6 @@ class PronySeries(_HasModulus, CoreValue):
         """The largest |E| [Pa] that the data reach."""
         return self.equilibrium_modulus + float(np.sum(self.moduli))
 
-    def shifted(self, a_T: float) -> "PronySeries":  # noqa: N803
-        """Return the rubber at another temperature: E(w) becomes E(a_T w), a_T > 1 is colder."""
-        return around(PronySeries, self._core.shifted(number(a_T, "a_T")))
-
     def _columns(self) -> Columns:
         rows = ("relaxation_time",)
         return Columns(
@@ -239,13 +244,6 @@ class MasterCurve(_HasModulus):
     def _stiffest(self) -> float:
         """The largest |E| [Pa] that the data reach."""
         return float(np.max(np.hypot(self.storage_modulus, self.loss_modulus)))
-
-    def shifted(self, a_T: float) -> "MasterCurve":  # noqa: N803
-        """Return the rubber at another temperature: E(w) becomes E(a_T w), a_T > 1 is colder.
-
-        The new curve has no `shift_factors`.
-        """
-        return like(self, self._core.shifted(number(a_T, "a_T")), shift_factors=None)
 
     def at_strain(
         self,

@@ -86,13 +86,8 @@ class Isotherm(Table):
         self._set(_core=core, **rows, notes=core.notes)
 
     def _draw(self, axes: Any) -> None:
-        draw_moduli(
-            axes,
-            self.angular_frequency,
-            self.storage_modulus,
-            self.loss_modulus,
-            styles=("o-", "^:"),
-        )
+        moduli = self.storage_modulus, self.loss_modulus
+        draw_moduli(axes, self.angular_frequency, *moduli, styles=("o-", "^:"))
         axes.set_title(f"{self.temperature:.4g} K")
 
 

@@ -114,10 +114,8 @@ class _Diagnostic:
 
     def within(self, *where: object) -> Self:
         """Return the same with what it is about before it: phrases, or a file."""
-        about: Any = where
-        if len(where) == 1 and not isinstance(where[0], str):
-            about = File(f"{where[0]}"), ": "
-        return self._made_of(self.sentence, (*about, *self.where), self.after)
+        about = where if isinstance(where[0], str) else where[0]
+        return self._made_of(self.sentence, (*_about(about), *self.where), self.after)
 
     def followed_by(self, *more: str) -> Self:
         """Return the same with more to say."""
@@ -126,6 +124,11 @@ class _Diagnostic:
     def said(self, words: Words) -> Self:
         """Return the same in words of an edge."""
         return self._made_of(words(self.sentence), words(self.where), words(self.after))
+
+
+def _about(where: Any) -> Sentence:
+    """Return what stands before a sentence: phrases, or those of a file."""
+    return where if isinstance(where, tuple) else (File(f"{where}"), ": ")
 
 
 class Error(_Diagnostic, Exception):
@@ -140,7 +143,7 @@ class Error(_Diagnostic, Exception):
         self, *sentence: str, code: str = "", where: object = (), after: Sentence = ()
     ) -> None:
         """Take the phrases of the sentence, at least one, and the file that it is about."""
-        about = where if isinstance(where, tuple) else (File(f"{where}"), ": ")
+        about = _about(where)
         super().__init__("".join((*about, *sentence, *after)))
         if code:
             self.code = code
@@ -211,7 +214,7 @@ class Note(_Diagnostic, str):
         """
         kind = KINDS.get(code, _ANY)
         severity = severity or kind.severity
-        about = where if isinstance(where, tuple) else (File(f"{where}"), ": ")
+        about = _about(where)
         text = "".join((*about, *sentence, *after))
         note = super().__new__(cls, f"{FATAL}: {text}" if severity == FATAL else text)
         note.code, note.severity = code, severity
