@@ -10,13 +10,7 @@ from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity.base.arguments import Shape, choice, number, number_or_none, real_array, shaped
-from asperity.base.diagnostics import (
-    Note,
-    fatal_first,
-    must_be,
-    must_have,
-    refusal,
-)
+from asperity.base.diagnostics import Note, fatal_first, must_be, must_have, refusal
 from asperity.base.quantities import (
     FIRST_WAVENUMBER,
     MODULUS,

@@ -7,14 +7,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from asperity import _core
-from asperity.base.arguments import (
-    ABSENT,
-    Conversion,
-    Vector,
-    choice,
-    number_or_none,
-    of_kind,
-)
+from asperity.base.arguments import ABSENT, Conversion, Vector, choice, number_or_none, of_kind
 from asperity.base.diagnostics import Note
 from asperity.base.table import Columns
 from asperity.base.value import around, value

@@ -7,14 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import (
-    Array,
-    Conversion,
-    frozen,
-    number,
-    real_array,
-    vector,
-)
+from asperity.base.arguments import Array, Conversion, frozen, number, real_array, vector
 from asperity.base.diagnostics import Argument, Must, must_be, must_have, valued
 from asperity.base.table import Table, declared_columns
 from asperity.base.value import like

@@ -12,12 +12,7 @@ from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Argument, Note, must_be, refusal
-from asperity.cli.friction_commands import (
-    check_outputs,
-    progress,
-    refuse_overwrite,
-    write_outputs,
-)
+from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite, write_outputs
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stderr
 from asperity.io import plausible

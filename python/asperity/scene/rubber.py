@@ -44,13 +44,7 @@ from asperity.scene.shift import (
 from asperity.scene.strain import STRAIN, build_strain
 from asperity.shift_factors import TemperatureShift
 from asperity.sweeps import Isotherm, StrainFactors
-from asperity.uncertainty.draws import (
-    Drawn,
-    Generator,
-    ShiftedRubber,
-    draw_build,
-    drawn_rubber,
-)
+from asperity.uncertainty.draws import Drawn, Generator, ShiftedRubber, draw_build, drawn_rubber
 
 Measured = Callable[[Path, Values], tuple[list[Isotherm], MasterCurveBuild]]
 

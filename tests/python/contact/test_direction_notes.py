@@ -6,12 +6,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import (
-    InvalidInput,
-    PartialContact,
-    SelfAffineSpectrum,
-    TabulatedSpectrum,
-)
+from asperity import InvalidInput, PartialContact, SelfAffineSpectrum, TabulatedSpectrum
 from helpers.ridges import RUBBER, C, Q, ridges, rows
 
 

@@ -6,13 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from asperity import (
-    MasterCurveBuild,
-    OutOfRange,
-    PronySeries,
-    ShiftFactors,
-    read_shift_factors,
-)
+from asperity import MasterCurveBuild, OutOfRange, PronySeries, ShiftFactors, read_shift_factors
 from helpers.refusals import refused
 from helpers.rubbers import T_REF, TEMPERATURES, built, sweeps, true_shift, worst
 
