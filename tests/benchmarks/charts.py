@@ -37,8 +37,16 @@ def rows_of(text: str) -> tuple[Rows, str]:
 
 def page(tables: dict[str, str]) -> str:
     """The page's tables from the CSV files by their names."""
-    result = [
-        (row["surface"], row["rubber"], *map(float, list(row.values())[2:]))
+    rings_header = ["surface", "rubber", "a velocity [us]", "ratio", "once [ms]", "worst error"]
+    of_rings = [
+        [
+            row["surface"],
+            row["rubber"],
+            timing.number(1e6 * float(row["time_s"]) / rings.VELOCITY.size),
+            timing.number(float(row["ratio"])),
+            timing.number(1e3 * float(row["once_s"])),
+            f"{float(row['error']):.0e}",
+        ]
         for row in rows_of(tables["rings.csv"])[0]
     ]
     curve, machine = rows_of(tables["friction.csv"])
@@ -71,7 +79,8 @@ def page(tables: dict[str, str]) -> str:
         ],
     ]
     return (
-        f"{machine}, one thread:\n\n{rings.markdown(result)}\n{timing.markdown(header, lines)}\n"
+        f"{machine}, one thread:\n\n{timing.markdown(rings_header, of_rings)}\n"
+        f"{timing.markdown(header, lines)}\n"
         f"{timing.markdown(['at rtol 1e-6 unless said', 'found'], more)}"
     )
 
@@ -92,12 +101,14 @@ def main() -> None:
     with_page(PAGE.read_text(encoding="utf-8"), "")  # has it the marks?
     files: dict[str, bytes] = {}
     for part in PARTS:
-        elapsed, report = timing.timed(part.make)
-        files |= report.files
-        print(f"{report.text}\n{part.__name__}: {elapsed:.0f} s\n", flush=True)
-    tables = {name: data.decode() for name, data in files.items() if name.endswith(".csv")}
-    written = with_page(PAGE.read_text(encoding="utf-8"), page(tables))
+        elapsed, made = timing.timed(part.make)
+        files |= made
+        print(f"{part.__name__}: {elapsed:.0f} s", flush=True)
+    tables = {name: data.decode() for name, data in files.items()}
+    text = page(tables)
+    print(text)
     contents = {DOCS / name: data for name, data in files.items()}
+    written = with_page(PAGE.read_text(encoding="utf-8"), text)
     write_files({**contents, PAGE: written.encode()})
 
 

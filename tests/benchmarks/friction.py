@@ -1,7 +1,5 @@
 """A hysteresis curve of 60 velocities: time and error of ours and of other methods, in one process.
 
-    python tests/benchmarks/friction.py [--output DIR]
-
 Table 1's surface (H 0.87, h_rms 265.7 um, q0 2000, q1 1e6), a Prony series of 20 terms, S factor
 0.5 on the friction, 81 kPa, 1e-6 to 10 m/s; one thread; methods by turns, medians. Errors are the
 worst of the curve, against tests/reference/friction_curves.csv. Yardsticks are three forms of the
@@ -49,8 +47,8 @@ def methods(curve: Curve) -> dict[str, timing.Call]:
     return calls
 
 
-def curve_table() -> tuple[str, dict[str, list[object]]]:
-    """Of the 60 velocities: markdown, and its columns."""
+def curve_table() -> dict[str, list[object]]:
+    """Columns of the table of 60 velocities."""
     curve = curves()["Table 1"]
     calls = methods(curve)
     times = timing.by_turns(calls, RUNS)
@@ -69,15 +67,10 @@ def curve_table() -> tuple[str, dict[str, list[object]]]:
         columns[f"{key}_ratio"] = [
             timing.ratio(times[yardstick], result) for result in times.values()
         ]
-    header = ["method", "time [us]", "worst error", *(f"{key} NumPy over it" for key in YARDSTICKS)]
-    rows = [
-        [str(name), timing.number(1e6 * t), f"{error:.1e}", *map(timing.number, ratios)]
-        for name, t, error, *ratios in zip(*columns.values(), strict=True)
-    ]
-    return timing.markdown(header, rows), columns
+    return columns
 
 
-def tabulated() -> tuple[str, dict[str, float]]:
+def tabulated() -> dict[str, float]:
     """A curve by 23 rows over the same by 20 terms, at 1e-9, and what is done once before."""
     by_terms, by_rows = (curves()[name].thinned() for name in ("Table 1", "tabulated modulus"))
     calls = {"terms": partial(by_terms.ours, 1e-9), "rows": partial(by_rows.ours, 1e-9)}
@@ -92,25 +85,14 @@ def tabulated() -> tuple[str, dict[str, float]]:
     rows, terms = (timing.median(times[name]) for name in ("rows", "terms"))
     ratio = timing.ratio(times["rows"], times["terms"])
     once = timing.median(read) + timing.median(first) - rows
-    errors = [curve.error(curve.ours(1e-9)) for curve in (by_rows, by_terms)]
-    text = (
-        f"Tabulated modulus at rtol 1e-9, 20 velocities: {1e6 * rows:.0f} us for 23 rows, "
-        f"{1e6 * terms:.0f} us for 20 terms, {ratio:.2f} times as long (errors {errors[0]:.1e} "
-        f"and {errors[1]:.1e}); once before that {1e6 * once:.0f} us.\n"
-    )
-    return text, {"rows_s": rows, "terms_s": terms, "ratio": ratio, "once_s": once}
+    return {"rows_s": rows, "terms_s": terms, "ratio": ratio, "once_s": once}
 
 
-def make() -> timing.Report:
-    of_curve, columns = curve_table()
-    text, result = tabulated()
+def make() -> dict[str, bytes]:
+    """Both tables as files."""
+    result = tabulated()
     other = {"quantity": list(result), "value": list(result.values())}
-    files = {
-        "friction.csv": timing.table("benchmark friction", columns),
+    return {
+        "friction.csv": timing.table("benchmark friction", curve_table()),
         "tabulated.csv": timing.table("benchmark tabulated modulus", other),
     }
-    return timing.Report(f"60 velocities:\n\n{of_curve}\n{text}", files)
-
-
-if __name__ == "__main__":
-    timing.run(make, __doc__)

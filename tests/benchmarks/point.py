@@ -1,7 +1,5 @@
 """One point from Python, over the C++ call and an empty call with as many arguments; and a grid.
 
-    python tests/benchmarks/point.py [--output DIR]
-
 The C++ call is timed by C++ (point.cpp), linked to the library of the `release` preset, which is
 built where that is missing or old: some minutes the first time. ASPERITY_LIBRARY names another one,
 a libasperity.a of this very source. The grid is 1000 pressures times 1000 velocities at rtol 1e-6,
@@ -71,32 +69,13 @@ def grid(side: int) -> float:
     return timing.median([timing.seconds(call) for _ in range(3)])
 
 
-def make() -> timing.Report:
-    result, whole = measure(), grid(SIDE)
-    rows = [
-        [
-            f"{rtol:.0e}",
-            *(f"{1e6 * t:.2f}" for t in times.values()),
-            f"{times['python'] / (times['cpp'] + times['empty']):.2f}",
-        ]
-        for rtol, times in result.items()
-    ]
-    header = ["rtol", "C++ [us]", "Python [us]", "empty [us]", "Python / (C++ + empty)"]
-    alone = result[1e-6]["cpp"]
-    text = (
-        f"One point:\n\n{timing.markdown(header, rows)}\n"
-        f"Grid of {SIDE} x {SIDE} at rtol 1e-6: {whole:.3g} s, {1e6 * whole / SIDE**2:.3g} us a "
-        f"point, {timing.number(whole / alone)} times one point in C++ ({1e6 * alone:.3g} us).\n"
-    )
+def make() -> dict[str, bytes]:
+    """The table as a file."""
     quantities = {
         f"{name}, rtol {rtol:.0e}": seconds
-        for rtol, times in result.items()
+        for rtol, times in measure().items()
         for name, seconds in times.items()
     }
-    quantities[f"grid {SIDE} x {SIDE}"] = whole
+    quantities[f"grid {SIDE} x {SIDE}"] = grid(SIDE)
     columns = {"quantity": list(quantities), "time_s": list(quantities.values())}
-    return timing.Report(text, {"point.csv": timing.table("benchmark point", columns)})
-
-
-if __name__ == "__main__":
-    timing.run(make, __doc__)
+    return {"point.csv": timing.table("benchmark point", columns)}

@@ -1,7 +1,5 @@
 """Measured spectra and rubbers: 60 velocities, over the closed form.
 
-    python tests/benchmarks/rings.py [--output DIR]
-
 NayakSFactor, 81 kPa, rtol 1e-6; one thread, by turns, medians, as ratios to the self-affine surface
 of Table 1 with a Prony series of 20 terms. With ASPERITY_DATA the rings of two scans with two
 rubbers from isotherms come first, as the Prony series fitted to them and as the master curve, over
@@ -122,24 +120,8 @@ def rows(given: Any, *names: str) -> dict[str, Any]:
     return {name: getattr(given, name) for name in names}
 
 
-def markdown(result: list[tuple[Any, ...]]) -> str:
-    """The table of surface, rubber, time, ratio, time of once and error."""
-    header = ["surface", "rubber", "a velocity [us]", "ratio", "once [ms]", "worst error"]
-    lines = [
-        [
-            surface,
-            terms,
-            timing.number(1e6 * t / VELOCITY.size),
-            timing.number(ratio),
-            timing.number(1e3 * once),
-            f"{worst:.0e}",
-        ]
-        for surface, terms, t, ratio, once, worst in result
-    ]
-    return timing.markdown(header, lines)
-
-
-def make() -> timing.Report:
+def make() -> dict[str, bytes]:
+    """The table as a file."""
     cases = scenes()
     first = {
         case: [timing.seconds(inputs.curve()) for _ in range(RUNS)]
@@ -157,10 +139,4 @@ def make() -> timing.Report:
         ],
         "error": [inputs.error() for inputs in cases.values()],
     }
-    text = markdown(list(zip(*columns.values(), strict=True)))
-    files = {"rings.csv": timing.table("benchmark rings", columns)}
-    return timing.Report(text, files)
-
-
-if __name__ == "__main__":
-    timing.run(make, __doc__)
+    return {"rings.csv": timing.table("benchmark rings", columns)}

@@ -1,18 +1,15 @@
-"""How the benchmarks time: one thread, methods by turns, medians; and where they write."""
+"""How the benchmarks time: one thread, methods by turns, medians."""
 
 import os
 import re
 import statistics
 import sys
 import time
-from argparse import ArgumentParser
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 from typing import Any
 
-from asperity.io.files import write_files
 from asperity.io.table import Table
 
 Call = Callable[[], Any]
@@ -51,18 +48,6 @@ def by_turns(calls: Mapping[str, Call], runs: int, patience: float = 0.3) -> dic
             calls[name]()
             times[name].append(seconds(calls[name]))
     return times
-
-
-class Repeated:
-    """A short call as often in a row as the clock needs."""
-
-    def __init__(self, call: Call) -> None:
-        self.call = call
-        self.many = max(1, int(2e-3 / max(seconds(call), 1e-9)))
-
-    def __call__(self) -> None:
-        for _ in range(self.many):
-            self.call()
 
 
 def median(times: Sequence[float]) -> float:
@@ -119,23 +104,3 @@ def markdown(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 def number(value: float) -> str:
     """Three digits, without an exponent where there is no need of one."""
     return f"{value:.3g}" if not 999.5 <= value < 1e6 else f"{value:.0f}"
-
-
-@dataclass(frozen=True)
-class Report:
-    """What a benchmark found: to be printed, and files by their names."""
-
-    text: str
-    files: Mapping[str, bytes]
-
-
-def run(make: Callable[[], Report], description: str | None) -> None:
-    """A benchmark as a script."""
-    on_one_thread()
-    parser = ArgumentParser(description=(description or "").splitlines()[0])
-    parser.add_argument("--output", type=Path, help="folder for the files; else none are written")
-    directory = parser.parse_args().output
-    report = make()
-    print(report.text, end="")
-    if directory is not None:
-        write_files({directory / name: data for name, data in report.files.items()})
