@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.diagnostics import Argument, Note, must_have, refusal, valued
+from asperity.base.table import imported
 from asperity.io.fields import nearest
 
-_BLOCK = 1_000_000  # numbers of a variable that are looked at together
+_ERRORS = ("error_estimate", "mu_low", "mu_high", "model_error", "hysteresis")
 _SCENE = "_scene"
 _AGREE = 1e-6  # relative, of a number that was typed and a coordinate
 
@@ -92,37 +93,13 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
     count = dataset.sizes[axis]
     if count < 2:
         raise must_have(f"--rank {axis}", "two or more", ": has one value")
-    others = [str(name) for name in dataset["mu"].dims if name != axis]
-    total, known, points = np.zeros(count), 0, 0
-    best, certain = np.zeros(count, int), np.zeros(count, int)
-    places = {name: np.zeros((count, dataset.sizes[name]), int) for name in others}
-    compared = {name: np.zeros(dataset.sizes[name], int) for name in others}
-    for block, offset in _blocks(dataset, axis, others):
-        mu = _stacked(block, "mu", axis, others)
-        error = _errors(block, axis, others)
-        sound = np.isfinite(mu).all(axis=0)
-        order = np.argsort(-np.where(np.isfinite(mu), mu, -np.inf), axis=0, kind="stable")
-        first = order[0]
-        best_mu, next_mu = np.take_along_axis(mu, order[:2], axis=0)
-        both = np.take_along_axis(error, order[:2], axis=0).sum(axis=0)
-        sure = sound & np.isfinite(both) & (best_mu - next_mu > both)  # else they overlap
-        points += int(sound.sum())
-        known += int((sound & np.isfinite(both)).sum())
-        total += np.where(sound, mu, 0.0).reshape(count, -1).sum(axis=1)
-        for i in range(count):
-            mine = sound & (first == i)
-            best[i] += int(mine.sum())
-            certain[i] += int((mine & sure).sum())
-            for k, name in enumerate(others):
-                rest = tuple(j for j in range(len(others)) if j != k)
-                where = slice(offset.get(name, 0), offset.get(name, 0) + mine.shape[k])
-                places[name][i, where] += mine.sum(axis=rest)
-                if i == 0:
-                    compared[name][where] += sound.sum(axis=rest)
+    result = _counts(dataset, axis)
+    points, known = int(result["points"]), int(result["known"])
     if points == 0:
         problem = ": there is no point at which every value has a result"
         raise InvalidInput(Argument(f"--rank {axis}"), problem)
-    mean = total / points
+    best, certain = result["best"].values, result["certain"].values
+    mean = result["total"].values / points
     by_mean = np.argsort(-mean, kind="stable")
     labels = [str(one) for one in dataset[axis].values]
     next_one = [*(mean[by_mean[:-1]] - mean[by_mean[1:]]), math.nan]
@@ -133,49 +110,61 @@ def ranks(dataset: Any, axis: str) -> dict[str, list[Any]]:
         "lead": [float(one) for one in next_one],
         "best_share": [float(best[i] / points) for i in by_mean],
         "certain_share": [float(certain[i] / known) if known else math.nan for i in by_mean],
-        "best_at": [
-            "; ".join(filter(None, (_where(dataset, n, places[n][i], compared[n]) for n in others)))
-            for i in by_mean
-        ],
+        "best_at": [_places(dataset, result, {axis: i}) for i in by_mean],
     }
 
 
-def _blocks(dataset: Any, axis: str, others: list[str]) -> Iterator[tuple[Any, dict[str, int]]]:
-    """Parts of a store that fit into memory, and where they begin along the longest axis."""
-    if not others:
-        yield dataset, {}
-        return
-    longest = max(others, key=lambda name: int(dataset.sizes[name]))
-    size = dataset.sizes[longest]
-    across = math.prod(dataset.sizes[name] for name in dataset["mu"].dims) // size
-    step = max(1, _BLOCK // max(across, 1))
-    for start in range(0, size, step):
-        yield dataset.isel({longest: slice(start, start + step)}), {longest: start}
+def _counts(dataset: Any, axis: str) -> Any:
+    """Sums over the points at which every value of an axis has a result, by name; over all of the
+    other axes, and over all but one.
+
+    The store is read chunk by chunk, as it need not fit in memory.
+    """
+    names = [name for name in ("mu", *_ERRORS) if name in dataset]
+    chunks = dataset[names].reset_coords(drop=True).chunk("auto")
+    places = imported("xarray", "sweep").DataArray(np.arange(dataset.sizes[axis]), dims=axis)
+    mu = chunks["mu"]
+    sound = mu.notnull().all(axis)
+    mu = mu.where(sound, 0.0)
+    first = sound & (mu.argmax(axis) == places)
+    rest = mu.where(~first, -np.inf)
+    leading = first | sound & (rest.argmax(axis) == places)
+    both = _error(chunks).where(leading, 0.0).sum(axis, skipna=False)
+    sure = first & (mu.max(axis) - rest.max(axis) > both)  # else they overlap, or are not known
+
+    def over(of: Any, *kept: str) -> Any:
+        return of.sum([name for name in of.dims if name not in kept])
+
+    sums = {"points": over(sound), "known": over(sound & both.notnull())}
+    sums |= {"total": over(mu, axis), "best": over(first, axis), "certain": over(sure, axis)}
+    sums["best at"] = {name: over(first, axis, name) for name in sound.dims}
+    sums["points at"] = {name: over(sound, name) for name in sound.dims}
+    (result,) = imported("dask", "sweep").compute(sums)
+    return result
 
 
-def _stacked(block: Any, name: str, axis: str, others: list[str]) -> NDArray[np.float64]:
-    values: NDArray[np.float64] = block[name].transpose(axis, *others).values
-    return values
-
-
-def _errors(block: Any, axis: str, others: list[str]) -> NDArray[np.float64]:
+def _error(chunks: Any) -> Any:
     """How far mu may be from what it stands for, all errors added; NaN where one is unknown."""
-    error = _stacked(block, "error_estimate", axis, others)
-    if "mu_low" in block and "mu_high" in block:
-        high, low = (_stacked(block, name, axis, others) for name in ("mu_high", "mu_low"))
-        error = error + (high - low) / 2
-    if "model_error" not in block or "hysteresis" not in block:
-        return np.full(error.shape, np.nan)
-    model, mu = (_stacked(block, name, axis, others) for name in ("model_error", "hysteresis"))
-    return np.asarray(error + model * mu)
+    error = chunks["error_estimate"]
+    if "mu_low" in chunks and "mu_high" in chunks:
+        error = error + (chunks["mu_high"] - chunks["mu_low"]) / 2
+    if "model_error" not in chunks or "hysteresis" not in chunks:
+        return error * np.nan
+    return error + chunks["model_error"] * chunks["hysteresis"]
 
 
-def _where(dataset: Any, name: str, mine: NDArray[np.int64], all_: NDArray[np.int64]) -> str:
-    """Where along an axis a value is best more often than not: nothing where that is everywhere."""
-    often = 2 * mine > all_
-    if not often.any() or often[all_ > 0].all():
-        return ""
-    values = dataset[name].values
+def _places(dataset: Any, counts: Any, value: Mapping[str, int]) -> str:
+    """Where along other axes a value is best more often than not, of those where that is not
+    everywhere."""
+    parts = []
+    for name, points in counts["points at"].items():
+        often = (2 * counts["best at"][name].isel(value) > points).values
+        if often.any() and not often[points > 0].all():
+            parts.append(_named(name, dataset[name].values, often))
+    return "; ".join(parts)
+
+
+def _named(name: str, values: NDArray[Any], often: NDArray[np.bool_]) -> str:
     short = name.rpartition(".")[2]
     if values.dtype.kind not in "fiu":
         return f"{short} {' '.join(str(one) for one in values[often])}"

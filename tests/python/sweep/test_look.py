@@ -9,7 +9,6 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.plot import sweep as plot
-from asperity.sweep import look
 from asperity.sweep.look import choose, notes_of, ranks, with_scenes
 from helpers.cases import case
 from helpers.sweeps import SCENE
@@ -103,16 +102,6 @@ def test_points_without_a_result_are_not_compared():
     assert result["mean_mu"][:2] == pytest.approx([2.19 / 3, 2.1 / 3])
     with pytest.raises(asperity.InvalidInput, match="no point at which every value"):
         ranks(table(np.full((3, 2, 2), np.nan), mu), "rubber")
-
-
-def test_ranks_in_parts_are_those_of_the_whole(swept, monkeypatch):
-    whole = ranks(swept, "correction.kind")
-    monkeypatch.setattr(look, "_BLOCK", 40)
-    for name, column in ranks(swept, "correction.kind").items():
-        if name in ("mean_mu", "lead"):
-            assert column == pytest.approx(whole[name], rel=1e-12, nan_ok=True)
-        else:
-            assert str(column) == str(whole[name]), name
 
 
 def test_the_command_ranks_and_draws(stored, tmp_path, monkeypatch, capsys, undrawn):
