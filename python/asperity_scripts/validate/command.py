@@ -67,7 +67,7 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[Note
         raise InvalidInput(Argument("--rows"), MUST_BE, "left out where --surface is given")
     flat, facts, unusual = _own_map(args)
     path = FilePath(args.surface)
-    with rename_in_errors(path, {"p_over_Eh": "--loads", "min_distance": "--q0"}):
+    with rename_in_errors(path, {"loads": "--loads", "min_distance": "--q0"}):
         contacts, notes = own_contacts(
             flat,
             path.name,

@@ -15,12 +15,11 @@ from asperity.correction import Correction, NayakSFactor, PartialContact, SFacto
 from asperity.draw.figure import legend, new_figure, picture
 from asperity.draw.style import colours, grey
 from asperity.friction import friction
-from asperity.measured_spectrum import power_spectrum
 from asperity.rubber import Rubber
 from asperity.scene.progress import Progress, line_on
-from asperity.spectrum import Spectrum
 from asperity.surface import HeightMap
 from asperity.validation.sliding import SlidingStep, continued, slide
+from asperity_scripts.validate.boundary_elements import spectrum_of_modes
 
 _Array = NDArray[np.float64]
 
@@ -142,7 +141,7 @@ def compare(
             )
             rows.append((contact.hysteresis, contact.work_of_slopes, contact.contact_area))
     mu, slopes, area = np.array(rows).T.reshape(3, loads.size, speeds.size)
-    spectrum = _spectrum(solved)
+    spectrum = spectrum_of_modes(solved)
 
     def theory(name: str, at: _Array) -> tuple[_Array, _Array]:
         result: Any = friction(
@@ -173,14 +172,3 @@ def compare(
         curves={name: theory(name, between) for name in _DRAWN},
         notes=notes,
     )
-
-
-def _spectrum(solved: HeightMap) -> Spectrum:
-    """Rings of the modes of the map, at the rms slope of its modes."""
-    (ny, nx), (dy, dx) = solved.heights.shape, solved.pixel_size
-    q = np.hypot(
-        np.fft.fftfreq(ny, dy / (2 * np.pi))[:, None], np.fft.fftfreq(nx, dx / (2 * np.pi))
-    )
-    power = np.abs(np.fft.fft2(solved.heights.astype(float)) / solved.heights.size) ** 2
-    spectrum = power_spectrum(solved, window="none", detrend=None)
-    return spectrum.scaled(float(np.sum(q**2 * power)) / spectrum.rms_slope**2)

@@ -23,7 +23,6 @@ import asperity
 from asperity.draw.figure import legend, new_figure, picture
 from asperity.draw.style import COLOURS
 from asperity.validation import slide
-from asperity_scripts.validate.boundary_elements import contact
 from asperity_scripts.validate.contacts import Contact
 from asperity_scripts.validate.predictions import Model, models_for, predict
 
@@ -46,9 +45,9 @@ def map_of(seed: int, points: int, longest: int = 1) -> asperity.HeightMap:
 
 def excess(pressure: Array, points: int) -> Array:
     """Whole pixels over the area without the perimeter's excess."""
-    loads = pressure / LAW.rms_slope
-    result = contact(map_of(SEEDS[0], points), p_over_Eh=loads, periodic=True)
-    return result.area_raw / result.area
+    surface, at = map_of(SEEDS[0], points), {"velocity": 0.0, "poisson_ratio": 0.0}
+    solved = [slide(surface, SOLID, pressure=p, **at, periodic=True, rtol=1e-8) for p in pressure]
+    return np.array([one.contact_area_raw / one.contact_area for one in solved])
 
 
 def contacts(pressure: Array, area: Array) -> list[Contact]:

@@ -60,6 +60,12 @@ def test_the_theory_is_told_the_slope_and_energy_of_the_maps_own_modes():
     assert full.energy == pytest.approx(np.sum(q * power) / 4, rel=1e-9, abs=0)
 
 
+@pytest.mark.parametrize("load", ["0", "-0.1"])
+def test_loads_are_positive(scan, tmp_path, capsys, load):
+    assert main(arguments(scan, f"--loads={load}", "--output", str(tmp_path / "worth"))) == 2
+    assert f"--loads = {load}: must be positive" in capsys.readouterr().err
+
+
 def test_without_the_wavenumber_of_the_asperities_their_models_are_left_out(
     undrawn, scan, tmp_path
 ):
