@@ -8,11 +8,10 @@ have no heat. At one velocity some slopes of each are held to central difference
 rtol, and the integrals of the densities to d mu / d ln p, where the hysteresis stands alone. Of a
 difference its own error is allowed too, as two steps, what bends between them and the errors of mu
 tell it; where that is above a thousandth of mu it says nothing and is left out. Printed: how
-many slopes were compared, errors over those stated, which slopes exceeded, errors stated and found
-over mu. Exit status 1 where one exceeded.
+many slopes were compared, errors over those stated, which slopes exceeded. Exit status 1 where one
+did.
 """
 
-import argparse
 import functools
 import inspect
 import sys
@@ -22,6 +21,8 @@ from typing import Any
 
 import numpy as np
 import random_heat
+from judge import Held, NoTruth, judged
+from options import options
 
 import asperity
 
@@ -228,36 +229,18 @@ def compute(seed: int, scene: int) -> Outcome:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--scenes", type=int, default=2000)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--first", type=int, default=0)
-    given = parser.parse_args()
-    refused: dict[str, int] = {}
-    found: dict[str, list[tuple[float, float, float]]] = {}
-    exceeded = 0
-    for scene in range(given.first, given.first + given.scenes):
-        outcome = compute(given.seed, scene)
+    asked = options(__doc__, scenes=2000, seed=1, first=0)
+
+    def held(scene: int) -> list[Held]:
+        outcome = compute(asked.seed, scene)
         if outcome.refused:
-            refused[outcome.refused] = refused.get(outcome.refused, 0) + 1
-        for name, (error, stated, left) in outcome.errors.items():
-            found.setdefault(name, []).append((error, stated, left))
-            if not error <= stated + left:
-                exceeded += 1
-                print(
-                    f"scene {scene}, {name}: off by {error:.2g}, stated {stated:.2g}, "
-                    f"difference {left:.2g}",
-                    flush=True,
-                )
-    for name, rows in sorted(found.items()):
-        error, stated, left = np.array(rows).T
-        ratio = np.maximum(error - left, 0) / stated
-        print(
-            f"{name:20s} {len(rows):5d} slopes, error over stated: 90 % below "
-            f"{np.quantile(ratio, 0.9):.2g}, most {ratio.max():.2g}; stated {np.median(stated):.1e}"
-        )
-    print(f"no slopes: {refused}; {sum(map(len, found.values()))} slopes, {exceeded} exceeded")
-    return exceeded > 0
+            raise NoTruth(outcome.refused)
+        return [
+            (name, max(error - left, 0) / stated, f"off by {error:.2g} with {left:.2g}")
+            for name, (error, stated, left) in outcome.errors.items()
+        ]
+
+    return judged(range(asked.first, asked.first + asked.scenes), held)
 
 
 if __name__ == "__main__":

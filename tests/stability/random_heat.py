@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from judge import Held, NoTruth, judged
 from options import options
 
 import asperity
@@ -161,26 +162,16 @@ def compute(seed: int, scene: int, *, rings: float = 0.0, curves: float = 0.0) -
 
 def main() -> int:
     given = options(__doc__, scenes=2000, seed=1, rings=0.1, curves=0.0)
-    untold: dict[str, int] = {}
-    ratios: dict[float, list[float]] = {}
-    exceeded = refused = several = 0
-    for scene in range(given.scenes):
+
+    def held(scene: int) -> list[Held]:
         outcome = compute(given.seed, scene, rings=given.rings, curves=given.curves)
         if outcome.untold:
-            untold[outcome.untold] = untold.get(outcome.untold, 0) + 1
-        several += outcome.branches > 1
-        refused += len(outcome.refused)
-        for rtol, ratio in outcome.ratios.items():
-            ratios.setdefault(rtol, []).append(ratio)
-            if not ratio <= 1:
-                exceeded += 1
-                print(f"scene {scene}, rtol {rtol:g}: {ratio:.3g} times its estimate", flush=True)
-    for rtol, of_rtol in sorted(ratios.items()):
-        median, most = np.median(of_rtol), np.max(of_rtol)
-        print(f"rtol {rtol:g}: {len(of_rtol)} scenes, median {median:.2g}, most {most:.3g}")
-    print(f"no truth: {untold}; not reached: {refused}; with several states: {several}")
-    print(f"{exceeded} exceeded")
-    return exceeded > 0
+            raise NoTruth(outcome.untold)
+        several = [("with several states", 0.0, "")] * (outcome.branches > 1)
+        refused = [(f"rtol {rtol:g}, not reached", 0.0, "") for rtol in outcome.refused]
+        return [*several, *refused, *((f"rtol {k:g}", r, "") for k, r in outcome.ratios.items())]
+
+    return judged(range(given.scenes), held)
 
 
 if __name__ == "__main__":

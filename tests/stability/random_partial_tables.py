@@ -9,8 +9,7 @@ or many. Each scene has three velocities, three loads that make A/A0 of 1e-4 to 
 from 1e-3 to 1e-9: 27 points. The truth is that of partial_truth.py; mu must be as near to it as
 the estimate says, the area within rtol, but for 3e-14. A share of `absurd` has one velocity of
 fourteen decades, two loads and rtol of 1e-4 to 1e-9 on the surfaces and rubbers of
-partial_scenes.py. Printed: scenes that exceeded or did not
-converge, the number of points and of those exceeded. Exit status 1 where there were any.
+partial_scenes.py. Printed: what exceeded or did not converge. Exit status 1 where anything did.
 """
 
 import sys
@@ -22,6 +21,7 @@ import numpy as np
 import asperity
 
 sys.path.insert(0, str(Path(__file__).parent))
+from judge import Held, judged
 from options import options
 from partial_scenes import draw_parts, power
 from partial_truth import Surface, Truth
@@ -186,24 +186,13 @@ def compute(seed: int, scene: int, absurd: bool = False) -> tuple[str, list[tupl
 
 def main() -> int:
     asked = options(__doc__, scenes=1500, seed=1, absurd=0.0)
-    points, exceeded, failed, worst = 0, 0, 0, 0.0
-    for scene in range(asked.scenes):
-        try:
-            absurd = (scene * asked.absurd) % 1 < asked.absurd
-            kind, found = compute(asked.seed, scene, absurd)
-        except asperity.NotConverged as error:
-            failed += 1
-            print(f"scene {scene}: {error}", flush=True)
-            continue
-        for rtol, excess in found:
-            points += 1
-            worst = max(worst, excess)
-            if not excess <= 1:
-                exceeded += 1
-                print(f"scene {scene} ({kind}), rtol {rtol:.3g}: {excess:.3g} of what is allowed")
-    print(f"{points} points: {exceeded} exceeded, {failed} scenes did not converge")
-    print(f"worst error over what is allowed: {worst:.3f}")
-    return 1 if exceeded or failed else 0
+
+    def held(scene: int) -> list[Held]:
+        absurd = (scene * asked.absurd) % 1 < asked.absurd
+        kind, found = compute(asked.seed, scene, absurd)
+        return [("points", excess, f"{kind}, rtol {rtol:.3g}") for rtol, excess in found]
+
+    return judged(range(asked.scenes), held)
 
 
 if __name__ == "__main__":

@@ -23,6 +23,7 @@ import asperity
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "reference"))
 sys.path.insert(0, str(Path(__file__).parent))
+from judge import Held, judged
 from options import options
 from partial_rule import sums, variance
 from partial_scenes import draw_parts, power
@@ -109,25 +110,19 @@ def compute(seed: int, scene: int) -> Outcome:
 
 def main() -> int:
     asked = options(__doc__, scenes=10_000, seed=1)
-    failed, roots, slopes, margins = 0, [], [], []
-    for scene in range(asked.scenes):
-        try:
-            outcome = compute(asked.seed, scene)
-        except asperity.NotConverged as error:
-            failed += 1
-            print(f"scene {scene}: {error}", flush=True)
-            continue
-        roots += outcome.roots
-        slopes.append(outcome.slope)
-        margins.append(outcome.margin)
-        if not outcome.kept:
-            failed += 1
-            print(f"scene {scene}: {outcome}", flush=True)
-    print(f"{asked.scenes} scenes: {failed} failed")
+    outcomes = []
+
+    def held(scene: int) -> list[Held]:
+        outcomes.append(outcome := compute(asked.seed, scene))
+        return [("one root", 0.0 if outcome.kept else np.inf, outcome)]
+
+    status = judged(range(asked.scenes), held)
+    roots = [root for one in outcomes for root in one.roots]
+    slopes, margins = ([getattr(one, name) for one in outcomes] for name in ("slope", "margin"))
     print(f"roots in ln kappa from {min(roots):.3g} to {max(roots):.3g}")
     print(f"slope of the residual there {min(slopes):.3g} or more, median {np.median(slopes):.3g}")
     print(f"two units and more of ln kappa from the root it is {min(margins):.3g} or more off 0")
-    return 1 if failed else 0
+    return status
 
 
 if __name__ == "__main__":

@@ -25,13 +25,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from judge import Held, NoTruth, judged
 from options import options
 
 import asperity
-
-
-class NoTruth(Exception):
-    """None of GSL's rules converges."""
 
 
 @dataclass
@@ -311,29 +308,19 @@ def compute(
 def main() -> int:
     asked = options(__doc__, scenes=10_000, seed=1, tables=0.3, edges=0.0, rings=0.0, curves=0.0)
     shares = asked.tables, asked.edges, asked.rings, asked.curves
-    ratios, exceeded, unsolved, untold = [], 0, 0, 0
-    for scene in range(asked.scenes):
-        try:
-            outcome = compute(asked.seed, scene, *shares)
-        except NoTruth as error:
-            untold += 1
-            print(f"scene {scene}: no truth: {error}")
-            continue
-        except asperity.NotConverged as error:
-            unsolved += 1
-            print(f"scene {scene}: {error}")
-            continue
+    ratios = []
+
+    def held(scene: int) -> list[Held]:
+        outcome = compute(asked.seed, scene, *shares)
         if outcome.error > outcome.truth_estimate > 0:
             ratios.append(outcome.estimate / outcome.error)
-        if not outcome.kept:
-            exceeded += 1
-            print(f"scene {scene}: {outcome}")
-    print(
-        f"{asked.scenes} scenes: estimate exceeded in {exceeded}, not converged {unsolved},"
-        f" without a truth {untold}"
-    )
+        allowed = outcome.estimate + outcome.truth_estimate
+        ratio = outcome.error / max(allowed, 1e-300) if outcome.kept else np.inf
+        return [("mu", ratio, outcome)]
+
+    status = judged(range(asked.scenes), held)
     print(f"median of estimate over error: {np.median(ratios):.3g}, of {len(ratios)} scenes")
-    return 1 if exceeded or unsolved else 0
+    return status
 
 
 if __name__ == "__main__":

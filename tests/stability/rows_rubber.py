@@ -8,10 +8,12 @@ import naive
 import numpy as np
 import truth
 from rows import Case, row
+from rows_contact import ROAD, band_density, surface
+from rows_contact import friction as friction_of
 
 import asperity
 
-ROAD = {"rms_height": 265.7e-6, "hurst": 0.87, "q0": 2000.0, "q1": 1e6}
+road_density = band_density(ROAD)
 
 
 def series(equilibrium: float, moduli: Any, times: Any) -> Any:
@@ -20,13 +22,8 @@ def series(equilibrium: float, moduli: Any, times: Any) -> Any:
     )
 
 
-def friction(rubber: Any, **options: Any) -> Any:
-    options = {"pressure": 81e3, "velocity": 1e-2, "rtol": 1e-11, **options}
-    return asperity.friction(asperity.SelfAffineSpectrum(**ROAD), rubber, **options)
-
-
-def road_density(q: Any) -> Any:
-    return naive.band_density(*(ROAD[k] for k in ("rms_height", "hurst", "q0", "q1")))(q)
+def friction(rubber: Any, pressure: float = 81e3, velocity: float = 1e-2, **options: Any) -> Any:
+    return friction_of(surface(), pressure, velocity, rubber=rubber, **options)
 
 
 def trapezoid(integrals: Any, pressure: float = 81e3, velocity: float = 1e-2) -> Any:
