@@ -1,19 +1,26 @@
-"""Measured spectra and rubbers: 60 velocities, over the closed form.
+"""Measured spectra and rubbers: 60 velocities, over the closed form. Takes about a minute:
+
+    python tests/benchmarks/rings.py
+
+writes docs/benchmarks/rings.csv and the table between two marks in docs/notes/speed.md.
 
 NayakSFactor, 81 kPa, rtol 1e-6; one thread, by turns, medians, as ratios to the self-affine surface
-of Table 1 with a Prony series of 20 terms. With ASPERITY_DATA the rings of two scans with two
-rubbers from isotherms come first, as the Prony series fitted to them and as the master curve, over
-all velocities at which the modulus was measured. Synthetic rings are those of a scan: equal steps
-of q, C = q^-3.6 with a scatter that falls as more modes are averaged; their rubbers are that series
-and a master curve of 140 rows of it, smooth and with 1 % of noise, their velocities 1e-6 to 10 m/s.
+of Table 1 with a Prony series of 20 terms. The rings of two scans with two rubbers from isotherms,
+which ASPERITY_DATA names, come first, as the Prony series fitted to them and as the master curve,
+over all velocities at which the modulus was measured. Synthetic rings are those of a scan: equal
+steps of q, C = q^-3.6 with a scatter that falls as more modes are averaged; their rubbers are that
+series and a master curve of 140 rows of it, smooth and with 1 % of noise, their velocities 1e-6 to
+10 m/s.
 `once` is what the first call on new objects takes beyond the others: all that depends on the rows
 alone. The error is the worst of 20 of the velocities, against GSL's CQUAD at 1e-11, for master
 curves at 1e-10.
 """
 
+import csv
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import measured
@@ -21,7 +28,11 @@ import numpy as np
 import timing
 
 import asperity
+from asperity.io.files import write_files
 
+DOCS = Path(__file__).parents[2] / "docs"
+TABLE, PAGE = DOCS / "benchmarks" / "rings.csv", DOCS / "notes" / "speed.md"
+BEGIN, END = "<!-- written by tests/benchmarks/rings.py -->\n", "<!-- as far as here -->\n"
 RUNS = 21
 SYNTHETIC = {
     "392 rings": (392, 8),
@@ -120,8 +131,8 @@ def rows(given: Any, *names: str) -> dict[str, Any]:
     return {name: getattr(given, name) for name in names}
 
 
-def make() -> dict[str, bytes]:
-    """The table as a file."""
+def measure() -> bytes:
+    """The table as CSV."""
     cases = scenes()
     first = {
         case: [timing.seconds(inputs.curve()) for _ in range(RUNS)]
@@ -139,4 +150,48 @@ def make() -> dict[str, bytes]:
         ],
         "error": [inputs.error() for inputs in cases.values()],
     }
-    return {"rings.csv": timing.table("benchmark rings", columns)}
+    return timing.table("benchmark rings", columns)
+
+
+def markdown(table: str) -> str:
+    """The page's table from the CSV."""
+    machine = next(line for line in table.splitlines() if line.startswith("# machine = "))
+    lines = csv.DictReader(line for line in table.splitlines() if not line.startswith("#"))
+    header = ["surface", "rubber", "a velocity [us]", "ratio", "once [ms]", "worst error"]
+    cells = [
+        [
+            row["surface"],
+            row["rubber"],
+            timing.number(1e6 * float(row["time_s"]) / VELOCITY.size),
+            timing.number(float(row["ratio"])),
+            timing.number(1e3 * float(row["once_s"])),
+            f"{float(row['error']):.0e}",
+        ]
+        for row in lines
+    ]
+    name = machine.partition(" = ")[2].strip('"')
+    return f"{name}, one thread:\n\n{timing.markdown(header, cells)}"
+
+
+def with_table(page: str, text: str) -> str:
+    """The page with `text` between its marks."""
+    before, begin, rest = page.partition(BEGIN)
+    _, end, after = rest.partition(END)
+    if not begin or not end:
+        raise SystemExit(f"{PAGE}: must have the lines {BEGIN!r} and {END!r}")
+    return before + begin + text + end + after
+
+
+def main() -> None:
+    timing.on_one_thread()
+    if measured.folder() is None:
+        raise SystemExit("ASPERITY_DATA: must name the folder of the measured scans and rubbers")
+    page = PAGE.read_text(encoding="utf-8")
+    with_table(page, "")  # has it the marks?
+    table = measure()
+    print(text := markdown(table.decode()))
+    write_files({TABLE: table, PAGE: with_table(page, text).encode()})
+
+
+if __name__ == "__main__":
+    main()

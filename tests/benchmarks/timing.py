@@ -54,24 +54,6 @@ def median(times: Sequence[float]) -> float:
     return statistics.median(times)
 
 
-def typical(call: Call, runs: int = 7, patience: float = 0.3) -> float:
-    """Median seconds of one call by itself.
-
-    Short ones are timed as many in a row as take two milliseconds, of one that takes longer than
-    `patience` the first is all.
-    """
-    first = seconds(call)
-    if first > patience:
-        return first
-    many = max(1, int(2e-3 / first))
-
-    def batch() -> None:
-        for _ in range(many):
-            call()
-
-    return median([seconds(batch) for _ in range(runs)]) / many
-
-
 def ratio(yardstick: Sequence[float], times: Sequence[float]) -> float:
     """Median of the yardstick's time over that of the same turn."""
     if len(yardstick) != len(times):
