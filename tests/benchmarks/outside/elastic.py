@@ -1,6 +1,6 @@
 """Elastic contacts of another group beside every correction, their gaps beside those of `slide`.
 
-    python tests/benchmarks/outside/elastic.py CLONE [docs/notes/outside_elastic.png]
+    python tests/benchmarks/outside/elastic.py CLONE
 
 CLONE is one of xylcsi/PerssonModelFudgeFactor: Green's function molecular dynamics of Y. Zhou,
 areas in the mean of maps (Data/Area_GFMD_Zhou.mat) and gaps of a set (GFMD_final_results_*.mat).
@@ -9,7 +9,6 @@ Their areas count whole pixels. What that adds is not in the files, nor how many
 here it is what it adds on a map of that law with 10 and with 5 pixels to the shortest wave.
 """
 
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,8 +19,6 @@ import numpy as np
 from scipy.io import loadmat
 
 import asperity
-from asperity.draw.figure import legend, new_figure, picture
-from asperity.draw.style import COLOURS
 from asperity.validation import slide
 from asperity_scripts.validate.contacts import Contact
 from asperity_scripts.validate.predictions import Model, models_for, predict
@@ -130,7 +127,6 @@ def main() -> None:
     light = (pressure >= LIGHT[0]) & (pressure <= LIGHT[1])
     print("\nrms (mean, worst) in %; mean of loads from 0.005 to 0.113:\n")
     print("| correction | " + " | ".join(sets) + " |\n" + "| --- " * (1 + len(sets)) + "|")
-    left = {}
     for model in (*models_for(sets["as printed"]), *MORE):
         cells = []
         for of in sets.values():
@@ -138,7 +134,6 @@ def main() -> None:
             worst = off[np.argmax(abs(off))]
             rms = np.sqrt(np.mean(off**2))
             cells.append(f"{rms:.1f} ({off.mean():+.1f}, {worst:+.0f}); {off[light].mean():+.1f}")
-            left.setdefault(model.name, []).append(off)
         print(f"| {model.name} | " + " | ".join(cells) + " |")
     distributions = gaps(root)
     print("\nshare of the surface beyond a gap, largest difference:\n")
@@ -148,35 +143,6 @@ def main() -> None:
         ratio = np.trapezoid(one.own.mean(axis=0), one.gap) / np.trapezoid(one.beyond, one.gap)
         row = (one.pressure, one.area, abs(one.off).max(), one.scatter, ratio)
         print("| " + " | ".join(f"{cell:.3g}" for cell in row) + " |")
-    if len(sys.argv) > 2:
-        path = Path(sys.argv[2])
-        path.write_bytes(draw(pressure, left, distributions, path))
-
-
-def draw(
-    pressure: Array, left: dict[str, list[Array]], distributions: Sequence[Gaps], path: Path
-) -> bytes:
-    """What is left of the area, as printed (dashed) and corrected, and of the gaps."""
-    figure, (of_area, of_gaps) = new_figure(2)
-    shown = ("none", "S in G, 5/9", "S of A, 0.45", "Nayak S", "`PartialContact`")
-    for colour, name in zip(COLOURS, shown, strict=False):
-        printed, corrected, _ = left[name]
-        of_area.semilogx(pressure, corrected, color=colour, label=name.strip("`"))
-        of_area.semilogx(pressure, printed, "--", color=colour, linewidth=0.9)
-    of_area.plot([], [], "k--", linewidth=0.9, label="as printed")
-    of_area.set(xlabel="Pressure $p / E^*$ [-]", ylabel="Area over theirs, less 1 [%]")
-    for shade, one in zip(np.linspace(0, 0.9, len(distributions)), distributions, strict=True):
-        label = f"{one.pressure:g}" if one.pressure in (1e-4, 5e-3, 0.04, 0.191) else None
-        colour = (shade, 0.35, 1 - shade)
-        of_gaps.plot(one.gap / one.gap[-1], one.off, color=colour, linewidth=1, label=label)
-    of_gaps.set(
-        xlabel="Gap over the largest one [-]", ylabel="Share beyond it, ours less theirs [-]"
-    )
-    for axes in (of_area, of_gaps):
-        axes.axhline(0, color="0.6", linewidth=0.6, zorder=0)
-    legend(of_area)
-    legend(of_gaps, title="$p / E^*$")
-    return picture(figure, path)
 
 
 if __name__ == "__main__":

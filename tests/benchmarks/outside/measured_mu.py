@@ -1,6 +1,6 @@
 """Measured dry mu of five compounds beside hysteresis and a fitted adhesion: 29 points.
 
-    python tests/benchmarks/outside/measured_mu.py CLONE [docs/notes/outside_measured.png]
+    python tests/benchmarks/outside/measured_mu.py CLONE
 
 CLONE is one of k100kan35-dotcom/psfinal_hysteresis_redesign. The shear stress of the contact, tau =
 (mu - mu_H) p / A, of all compounds but one gives ln tau as a parabola in log10 v (Eq. 23), and with
@@ -8,17 +8,13 @@ it mu of the one left out. Beside it the baseline that knows no theory: the mean
 that speed.
 """
 
-import sys
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import clone
 import numpy as np
 
 import asperity
-from asperity.draw.figure import VELOCITY, legend, new_figure, picture
-from asperity.draw.style import COLOURS
 
 Array = np.ndarray
 # speeds of the S compounds are 25 times those of the R ones, digit by digit: taken as v a_T at 40 C
@@ -107,29 +103,6 @@ def main() -> None:
             theory = " | ".join(percent(each) for each, _ in result)
             baseline = result[0][1]
             print(f"| {group}{label} | {baseline.size} | {percent(baseline)} | {theory} |")
-    if len(sys.argv) > 2:
-        path = Path(sys.argv[2])
-        path.write_bytes(draw(rows, path))
-
-
-def draw(rows: Rows, path: Path) -> bytes:
-    """mu of each compound from the other four, and what is left of it and of the baseline."""
-    figure, (predicted, left) = new_figure(2)
-    for colour, (name, (v, mu, hysteresis, _)) in zip(COLOURS, rows.items(), strict=False):
-        theory, baseline = left_out(rows, name)
-        predicted.semilogx(v, theory, "o-", color=colour, markersize=3, label=name)
-        predicted.semilogx(v, hysteresis, ":", color=colour)
-        left.semilogx(v, 100 * (theory / mu - 1), "o-", color=colour, markersize=3)
-        left.semilogx(v, 100 * (baseline / mu - 1), "x--", color=colour, linewidth=0.8)
-    predicted.plot([], [], "k:", label="hysteresis alone")
-    predicted.set(xlabel=VELOCITY, ylabel="Predicted $\\mu$ [-]", ylim=(0, None))
-    left.plot([], [], "ko-", markersize=3, label="hysteresis and adhesion")
-    left.plot([], [], "kx--", linewidth=0.8, label="mean $\\mu$ of the others")
-    left.set(xlabel=VELOCITY, ylabel="Predicted over measured, less 1 [%]")
-    left.axhline(0, color="0.6", linewidth=0.6, zorder=0)
-    legend(predicted)
-    legend(left)
-    return picture(figure, path)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """asperity beside the field's commercial program, on its C(q), modulus, a_T and strain factors.
 
-    python tests/benchmarks/outside/program.py CLONE [docs/notes/outside_program.png]
+    python tests/benchmarks/outside/program.py CLONE
 
 CLONE is one of k100kan35-dotcom/psfinal_hysteresis_redesign. Scheme of the program: S = g + (1 - g)
 P^2 inside G and on the integrand of Eq. 22, one number g, P that of G with S. asperity does not
@@ -8,17 +8,13 @@ offer it; here it is made of its parts, d mu / d ln q without correction times S
 """
 
 import re
-import sys
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import clone
 import numpy as np
 
 import asperity
-from asperity.draw.figure import VELOCITY, legend, new_figure, picture
-from asperity.draw.style import COLOURS
 
 Array = np.ndarray
 FASTEST = 100.0  # m/s, to which the heat stays where a_T is known
@@ -50,7 +46,6 @@ SCENES = (
     Scene("S100, f and g held from 0.22 on", "S100_final", "S100", last_strain=0.22),
     Scene("S100, small strain, $q_1$ 1.05e6", "linear", "S100", q1=1.05e6, factors=None),
 )
-DRAWN = tuple(SCENES[i].name for i in (0, 2, 4))
 # rubber and contact by the defaults of the clone's own program; the commercial one's are not stored
 HEATING = asperity.Heating(
     density=1150, heat_capacity=1500, conductivity=0.3, contact_diameter=1e-3
@@ -175,48 +170,6 @@ def main() -> None:
     print("\n| q [1/m] | T(q) - T0 of the program [K] | ours |\n| --- | --- | --- |")
     for i in np.searchsorted(q, (1e2, 1e3, 1e4, 3e4, 1.04e5)):
         print(f"| {q[i]:.3g} | {rise[i] - 293.15:.2f} | {own[i] - 293.15:.2f} |")
-    if len(sys.argv) > 2:
-        path = Path(sys.argv[2])
-        path.write_bytes(draw(result, hot, path))
-
-
-def draw(result: Any, hot: Any, path: Path) -> bytes:
-    """What is left of mu and A, and of the heat."""
-    figure, (of_mu, of_area, of_heat, of_rise) = new_figure(4)
-    styles = {"S twice, 0.50": ":", "S twice, 0.60": "-", "`PartialContact`": "--"}
-    for colour, scene in zip(COLOURS, DRAWN, strict=False):
-        rows = result[scene]
-        for model, style in styles.items():
-            v, _, mu, area = rows[model]
-            label = scene if style == "-" else None
-            of_mu.semilogx(v, 100 * mu, style, color=colour, linewidth=1.2, label=label)
-            of_area.semilogx(v, 100 * area, style, color=colour, linewidth=1.2)
-    for model, style in styles.items():
-        of_area.plot(
-            [], [], style, color="0.3", label=model.strip("`").replace("S twice", "S in both")
-        )
-    of_mu.set(xlabel=VELOCITY, ylabel="$\\mu$ over the program's, less 1 [%]", ylim=(-42, 32))
-    of_area.set(xlabel=VELOCITY, ylabel="$A$ over the program's, less 1 [%]", ylim=(-42, 32))
-    for name, n, colour in (("$\\mu$", 0, COLOURS[0]), ("$A$", 1, COLOURS[1])):
-        of_heat.semilogx(
-            hot["velocity"], hot["own"][n], color=colour, label=f"{name} hot over cold"
-        )
-        off = hot["own"][n] / hot["program"][n] - 1
-        of_heat.semilogx(
-            hot["velocity"], off, "--", color=colour, label="less the program's, relative"
-        )
-    of_heat.set(xlabel=VELOCITY, ylabel="Ratio [-]", ylim=(-0.2, 3.4))
-    (q, theirs), (own_q, own) = hot["profile"], hot["own_profile"]
-    own_at = np.interp(np.log(q), np.log(own_q), own)
-    of_rise.semilogx(
-        q, own_at - clone.TEMPERATURE, color=COLOURS[2], label="$T(q) - T_0$ at 0.68 m/s"
-    )
-    of_rise.semilogx(q, own_at - theirs, "--", color=COLOURS[2], label="less the program's")
-    of_rise.set(xlabel="Wavenumber $q$ [1/m]", ylabel="Temperature [K]")
-    for axes in (of_mu, of_area, of_heat, of_rise):
-        axes.axhline(0, color="0.6", linewidth=0.6, zorder=0)
-        legend(axes)
-    return picture(figure, path)
 
 
 if __name__ == "__main__":
