@@ -1,7 +1,7 @@
 """Charts of the page, as options of ECharts: numbers and words, no page."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,6 @@ from asperity.base.quantities import ZERO_CELSIUS
 from asperity.draw.style import COLOURS
 from asperity.prony_fit import PronyFit
 from asperity.rubber import MasterCurve
-from asperity.scene.design import Worth
 from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.scan import surface_spectrum
 from asperity.spectrum import TabulatedSpectrum
@@ -53,30 +52,6 @@ def contributions_chart(q: Array, density: Array) -> Options:
     """dmu / d ln q over the wavenumber: which roughness makes friction."""
     series = [_line("dmu / d ln q", q, density, COLOURS[2], width=2)]
     return _chart(series, "wavenumber q [1/m]", "dmu / d ln q", y="value")
-
-
-def worth_chart(parts: Mapping[str, Sequence[Worth]], x_name: str) -> Options:
-    """What 10 % more of each decade is worth in mu, bars side by side."""
-    decades = sorted(
-        {(one.lower, one.temperature) for of in parts.values() for one in of if one.lower}
-    )
-    names = {
-        lower: f"1e{math.log10(lower):.0f}" + (f"\n{t - ZERO_CELSIUS:.0f} °C" if t else "")
-        for lower, t in decades
-    }
-    series: list[Options] = []
-    for (name, of), colour in zip(parts.items(), COLOURS, strict=False):
-        worth = {one.lower: float(f"{one.mu:.4g}") for one in of}
-        data = [worth.get(lower, 0.0) for lower in names]
-        bars = {"type": "bar", "name": name, "data": data, "itemStyle": {"color": colour}}
-        series.append(bars)
-    chart = _chart([], x_name, "d mu of 10 % more", y="value")
-    category = {"type": "category", "data": [*names.values()], "nameGap": 44}
-    category["axisLabel"] = {"lineHeight": 15}
-    chart["xAxis"] = {**chart["xAxis"], **category, "axisLine": {"onZero": False}}
-    chart["grid"] |= {"top": 36, "bottom": 62}
-    chart["legend"]["data"] = [*parts]
-    return {**chart, "series": series}
 
 
 def spectrum_chart(scene: Scene) -> Options:

@@ -1,6 +1,5 @@
 """The part of the surface: a scan that is dropped, the shipped one, or a law."""
 
-import base64
 import io
 from collections.abc import Awaitable, Callable
 from typing import Any
@@ -9,6 +8,7 @@ import numpy as np
 from nicegui import background_tasks, ui
 
 from asperity.app.charts import spectrum_chart
+from asperity.app.downloads import address_of
 from asperity.app.parts import Changed, Quantity, chart, controls, part, redraw
 from asperity.app.state import State
 from asperity.app.upload import Upload
@@ -215,4 +215,4 @@ def map_of(scene: Scene) -> tuple[str, str] | None:
         f"{1e3 * nx * dx:.4g} by {1e3 * ny * dy:.4g} mm, {nx} by {ny} points; heights from "
         f"{1e6 * low:.3g} (dark) to {1e6 * high:.3g} µm (light), trend removed"
     )
-    return "data:image/png;base64," + base64.b64encode(out.getvalue()).decode(), facts
+    return address_of(out.getvalue(), "png"), facts
