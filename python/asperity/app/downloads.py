@@ -11,19 +11,14 @@ from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
-from numpy.typing import NDArray
-
 from asperity.app.state import State
 from asperity.draw.style import drawn_in
 from asperity.fmu.export import export_fmu
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap
 from asperity.io.table import input_lines
-from asperity.plot.design import design_figure
 from asperity.plot.friction import friction_figure
 from asperity.report.make import report_page
-from asperity.scene.design import design_at_largest, worth_text
 from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
 from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.results import Bar, notes_of_all, scene_inputs, table_of
@@ -69,20 +64,11 @@ def picture(named: Sequence[tuple[str, Scene]], curves: Sequence[SceneFriction])
         return friction_figure(scenes, curves, Path("friction.svg"))
 
 
-def design_of(scene: Scene, mu: NDArray[np.float64]) -> tuple[str, str] | None:
-    """The picture of what 10 % more of each decade is worth where mu is largest, as an address, and
-    what more of the others is; None where nothing tells."""
-    made = design_at_largest(scene, mu)
-    if made is None:
-        return None
-    with _drawing, drawn_in(None):
-        drawn = design_figure(made, Path("design.svg"))
-    return address_of(drawn, "svg+xml"), worth_text(made)
-
-
-def address_of(picture: bytes, kind: str) -> str:
-    """A picture as an address that a page shows."""
-    return f"data:image/{kind};base64,{base64.b64encode(picture).decode()}"
+def drawn(draw: Callable[[Path], bytes], style: str) -> str:
+    """What is drawn into a file of that name, as an address that a page shows."""
+    with _drawing, drawn_in(style):
+        content = draw(Path("picture.png"))
+    return f"data:image/png;base64,{base64.b64encode(content).decode()}"
 
 
 def _silent(line: str) -> None:

@@ -5,17 +5,22 @@ import json
 import math
 from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import contextmanager
+from functools import partial
 from html import escape
-from typing import Any, Literal
+from pathlib import Path
+from typing import Any
 
-from nicegui import events, ui
+from nicegui import background_tasks, events, ui
 
+from asperity.app import downloads
 from asperity.app.charts import Options
+from asperity.app.worker import in_thread
 from asperity.base.parameters import Parameter
 from asperity.io.fields import Field
 
 _PAUSE = 0.02  # s between two values of a slider that is moved, or of a number that is typed
 _LATER = 0.1  # s after which the field is told what its slider already shows in it
+_STILL = 0.3  # s without another scene, after which a picture is drawn: curves go first
 _PATIENCE = 0.7  # s that a number may be out of its range, since it is being typed
 # The page is drawn anew with each update, which takes longer than the curve: the number beside the
 # slider does not wait for one.
@@ -39,12 +44,10 @@ def part(title: str, name: str) -> Iterator[ui.element]:
         yield section
 
 
-def chart(
-    options: Options, name: str, height: str = "17rem", renderer: Literal["svg", "canvas"] = "svg"
-) -> ui.echart:
-    """A chart with a name for who does not see it; of many points a canvas is drawn sooner."""
-    drawn = ui.echart(options, renderer=renderer).style(f"height: {height}")
-    return drawn.props(f'role="img" aria-label="{escape(name)}"')
+def chart(options: Options, name: str, height: str = "17rem") -> ui.echart:
+    """A chart with a name for who does not see it."""
+    made = ui.echart(options, renderer="svg").style(f"height: {height}")
+    return made.props(f'role="img" aria-label="{escape(name)}"')
 
 
 def redraw_series(drawn: ui.echart, options: Options) -> None:
@@ -61,6 +64,45 @@ def redraw(drawn: ui.echart, options: Options, name: str) -> None:
     drawn.options.update(options)
     drawn.props(f'aria-label="{escape(name)}"')
     drawn.update()
+
+
+class Picture:
+    """One of the package's own, drawn in a thread: the last that was asked for, once no other is.
+    It stands in a column of the page unless it is `wide`."""
+
+    def __init__(self, *, wide: bool = False) -> None:
+        self._style = "print" if wide else "single"
+        self._image = ui.image("").props('no-spinner fit="contain"').classes("w-full")
+        self._drawing = False
+        self.hide()
+
+    def hide(self) -> None:
+        """Show nothing."""
+        self._wanted: tuple[Callable[[Path], bytes], str] | None = None
+        self._image.set_visibility(False)
+
+    def show(self, draw: Callable[[Path], bytes], name: str) -> None:
+        """Show what `draw` makes, by a name for who does not see it."""
+        self._wanted = draw, name
+        if not self._drawing:
+            background_tasks.create(self._draw())
+
+    async def _draw(self) -> None:
+        self._drawing = True
+        try:
+            while (mine := self._wanted) is not None:
+                await asyncio.sleep(_STILL)
+                if mine is not self._wanted:
+                    continue
+                draw, name = mine
+                address = await in_thread(partial(downloads.drawn, draw, self._style))
+                if mine is self._wanted:
+                    self._wanted = None
+                    self._image.props["alt"] = name
+                    self._image.set_source(address)
+                    self._image.set_visibility(True)
+        finally:
+            self._drawing = False
 
 
 class Quantity:

@@ -12,12 +12,14 @@ from nicegui import background_tasks, ui
 from asperity._core import Error
 from asperity.app import downloads
 from asperity.app.charts import Options, contributions_chart, friction_chart
-from asperity.app.parts import chart, part, redraw, redraw_series
+from asperity.app.parts import Picture, chart, part, redraw, redraw_series
 from asperity.app.state import State
 from asperity.app.words import allowed_velocities, in_one_line
 from asperity.app.worker import Found, Shows, Worker, contributions, in_thread
 from asperity.base.diagnostics import Note, html_items
+from asperity.plot.design import design_figure
 from asperity.report.errors import errors_of, solved_contacts
+from asperity.scene.design import design_at_largest, worth_text
 from asperity.scene.model import Scene, SceneFriction
 
 _NONE = "There are no slopes for this scene: with heat, strain, directions or the contact of a scan"
@@ -31,7 +33,7 @@ class DesignPart:
         self._drawn: Scene | None = None  # that is shown
         opened = ui.expansion("What makes the friction: 10 % more", on_value_change=self._seen)
         with opened.classes("w-full").props("dense") as self._opened:
-            self._picture = ui.image("").props('no-spinner fit="contain"').classes("w-full")
+            self._picture = Picture(wide=True)
             self._others = ui.label("").classes("soft")
 
     def show(self) -> None:
@@ -47,14 +49,16 @@ class DesignPart:
         if found is None or not self._opened.value or found.scene is self._drawn:
             return
         scene, mu = found.scene, found.best.mu
-        shown = await in_thread(lambda: downloads.design_of(scene, mu))
+        design = await in_thread(partial(design_at_largest, scene, mu))
         self._drawn = scene
-        self._picture.set_visibility(shown is not None)
-        self._others.set_text(_NONE if shown is None else f"More of the others: {shown[1]}")
-        if shown is not None:
-            self._picture.set_source(shown[0])
-            said = "What 10 % more is worth in mu, by decade of frequency and of wavelength"
-            self._picture.props(f'alt="{said}; {shown[1]}"')
+        if design is None:
+            self._picture.hide()
+            self._others.set_text(_NONE)
+            return
+        others = worth_text(design)
+        self._others.set_text(f"More of the others: {others}")
+        said = "What 10 % more is worth in mu, by decade of frequency and of wavelength"
+        self._picture.show(partial(design_figure, design), f"{said}; {others}")
 
 
 _NOTHING = "There are no notes: input, correction and theory are within their ranges."

@@ -5,13 +5,13 @@ from typing import Any
 
 from nicegui import ui
 
-from asperity.app.charts import rubber_chart, shifts_chart
 from asperity.app.guess import QUANTITIES, UNITS
-from asperity.app.parts import chart, part, redraw
+from asperity.app.parts import Picture, part
 from asperity.app.state import State
 from asperity.app.upload import Upload
 from asperity.app.worker import Shows, Worker
 from asperity.base.quantities import temperature_text
+from asperity.plot.scene import rubber_figure
 from asperity.scene.model import Scene
 
 _SAID = {
@@ -45,9 +45,7 @@ class RubberPart(Shows):
             self._problem = ui.label("").classes("problem").props('role="alert"')
             self._left = ui.label("").classes("soft")
             self._facts = ui.label("").classes("soft")
-            self._chart = chart({}, "Modulus of the rubber", renderer="canvas")
-            self._shifts = chart({}, "Shift factors", "13rem")
-            self._shifts.set_visibility(False)
+            self._picture = Picture()
 
     async def _chosen(self, event: Any) -> None:
         if event.value != self._state.rubber:
@@ -124,9 +122,10 @@ class RubberPart(Shows):
 
     def show_scene(self, scene: Scene) -> None:
         built = scene.built_rubber
-        if built is self._drawn:
+        asked = scene.velocity.min(), scene.velocity.max(), scene.spectrum.q0, scene.spectrum.q1
+        if (built, *asked) == self._drawn:
             return
-        self._drawn = built
+        self._drawn = built, *asked
         at = built.temperature
         facts = "as it was given" if at is None else f"at {temperature_text(at, celsius=True)}"
         if built.build is not None:
@@ -134,8 +133,6 @@ class RubberPart(Shows):
             facts += f", of {n} isotherms that overlap to {100 * residual:.2g} %"
         self._facts.set_text(facts)
         name = f"Storage and loss modulus over the angular frequency, {facts}"
-        redraw(self._chart, rubber_chart(scene), name)
-        shifts = shifts_chart(scene)
-        self._shifts.set_visibility(shifts is not None)
-        if shifts is not None:
-            redraw(self._shifts, shifts, "Shift factors log10 a_T over the temperature")
+        if built.build is not None:
+            name += "; Shift factors log10 a_T over the temperature"
+        self._picture.show(partial(rubber_figure, scene), name)

@@ -1,21 +1,19 @@
 """The part of the surface: a scan that is dropped, the shipped one, or a law."""
 
-import io
 from collections.abc import Awaitable, Callable
+from functools import partial
 from typing import Any
 
-import numpy as np
-from nicegui import background_tasks, ui
+from nicegui import ui
 
-from asperity.app.charts import spectrum_chart
-from asperity.app.downloads import address_of
-from asperity.app.parts import Changed, Quantity, chart, controls, part, redraw
+from asperity.app.parts import Changed, Picture, Quantity, controls, part
 from asperity.app.state import State
 from asperity.app.upload import Upload
-from asperity.app.worker import Shows, Worker, in_thread
+from asperity.app.worker import Shows, Worker
 from asperity.base.arguments import brief
+from asperity.plot.scene import surface_figure
 from asperity.scene.model import Scene
-from asperity.scene.scan import LAY, flat
+from asperity.scene.scan import LAY
 from asperity.scene.surface import SURFACE
 from asperity.surface import HeightMap
 
@@ -26,7 +24,6 @@ _ENDS = (
     ("q1_per_m", "q1 [1/m], where it ends", "at pi / pixel"),
     ("slope_cutoff", "rms slope at which it ends", "no such end"),
 )
-_MOST_PIXELS = 360  # of a side of the picture
 
 
 class SurfacePart(Shows):
@@ -44,10 +41,7 @@ class SurfacePart(Shows):
                 self._law_fields()
             self._problem = ui.label("").classes("problem").props('role="alert"')
             self._facts = ui.label("").classes("soft")
-            self._map = ui.image("").props('no-spinner fit="contain"').classes("w-full")
-            self._map.props('alt="Map of the heights"').set_visibility(False)
-            self._map_facts = ui.label("").classes("soft")
-            self._chart = chart({}, "Roughness spectrum", renderer="canvas")
+            self._picture = Picture()
         self._see()
 
     def _scan_fields(self) -> None:
@@ -161,20 +155,12 @@ class SurfacePart(Shows):
             f"from {spectrum.q0:.4g} to {spectrum.q1:.4g} 1/m" + _lay_text(scene)
         )
         name = f"Roughness spectrum C(q) over the wavenumber; {self._facts.text}"
-        redraw(self._chart, spectrum_chart(scene), name)
-        background_tasks.create(self._show_map(scene))
-
-    async def _show_map(self, scene: Scene) -> None:
-        shown = await in_thread(lambda: map_of(scene))
-        if scene.surface is not self._drawn:
-            return
-        self._map.set_visibility(shown is not None)
-        self._map_facts.set_visibility(shown is not None)
-        if shown is not None:
-            picture, facts = shown
-            self._map.set_source(picture)
-            self._map.props(f'alt="Map of the heights; {facts}"')
-            self._map_facts.set_text(facts)
+        scan = scene.surface.scan
+        if isinstance(scan, HeightMap):
+            (ny, nx), (dy, dx) = scan.heights.shape, scan.pixel_size
+            size = f"{1e3 * nx * dx:.4g} by {1e3 * ny * dy:.4g} mm"
+            name = f"Map of the heights; {size}, {nx} by {ny} points. {name}"
+        self._picture.show(partial(surface_figure, scene), name)
 
 
 def _pixel_size(micrometres: str) -> float | list[float]:
@@ -192,27 +178,3 @@ def _lay_text(scene: Scene) -> str:
     if lay is None or not lay.ratio > LAY:
         return ""
     return f"; {lay.ratio:.3g} times as steep across its ridges, at {lay.degrees:.0f}° from x to y"
-
-
-def map_of(scene: Scene) -> tuple[str, str] | None:
-    """A picture of the map's heights as an address, and what it shows; None of lines and laws."""
-    from matplotlib.image import imsave
-
-    scan = scene.surface.scan
-    if not isinstance(scan, HeightMap):
-        return None
-    detrend = scene.surface.values["detrend"]
-    shown = flat(scan, None if detrend == "none" else detrend)
-    assert isinstance(shown, HeightMap)
-    ny, nx = shown.heights.shape
-    step = -(-max(ny, nx) // _MOST_PIXELS)
-    heights = np.asarray(shown.heights[::step, ::step], float)
-    low, high = np.nanpercentile(heights, [0.2, 99.8])
-    out = io.BytesIO()
-    imsave(out, heights, cmap="cividis", vmin=float(low), vmax=float(high), format="png")
-    dy, dx = shown.pixel_size
-    facts = (
-        f"{1e3 * nx * dx:.4g} by {1e3 * ny * dy:.4g} mm, {nx} by {ny} points; heights from "
-        f"{1e6 * low:.3g} (dark) to {1e6 * high:.3g} µm (light), trend removed"
-    )
-    return address_of(out.getvalue(), "png"), facts

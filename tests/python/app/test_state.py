@@ -3,7 +3,6 @@
 import io
 import os
 import pickle
-import re
 import tomllib
 import zipfile
 from pathlib import Path
@@ -13,7 +12,7 @@ import pytest
 
 import asperity
 from asperity.app import files
-from asperity.app.downloads import design_of, map_of, report_of, scene_archive, table_csv
+from asperity.app.downloads import map_of, report_of, scene_archive, table_csv
 from asperity.app.guess import guess_columns
 from asperity.app.loaded import OF_SCAN, PLAIN, offered
 from asperity.app.state import MOST_VARIANTS, State
@@ -294,13 +293,3 @@ def test_columns_are_guessed(
     assert result == columns
     assert [guess.units[kind] for kind in ("frequency", "modulus", "temperature")] == units
     assert guess.modulus == modulus
-
-
-def test_what_is_worth_more_is_drawn_where_slopes_are_known(state: State) -> None:
-    scene = state.load()
-    mu = scene.friction().mu
-    address, said = design_of(scene, mu) or ("", "")
-    assert address.startswith("data:image/svg+xml;base64,")
-    assert re.search(r"10 % of pressure -0\.\d+", said)
-    state.choose_correction("scan-contact")
-    assert design_of(state.load(), mu) is None
