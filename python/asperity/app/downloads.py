@@ -1,11 +1,9 @@
 """What can be taken away, scene and files, table, picture, map, FMU and report; pictures shown."""
 
 import base64
-import io
 import os
 import tempfile
 import threading
-import zipfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import nullcontext
 from dataclasses import replace
@@ -16,6 +14,7 @@ from asperity.draw.style import drawn_in
 from asperity.fmu.export import export_fmu
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap
+from asperity.io.archive import archived
 from asperity.io.table import input_lines
 from asperity.plot.friction import friction_figure
 from asperity.report.make import report_page
@@ -27,7 +26,6 @@ from asperity.scene.results import Bar, notes_of_all, scene_inputs, table_of
 Make = Callable[[], bytes]
 
 _drawing = threading.Lock()  # settings of matplotlib are those of the process
-_DAY = (1980, 1, 1, 0, 0, 0)  # of files in an archive: equal scenes are equal bytes
 MAP_RTOL = 1e-3
 Tell = Callable[[str], object]  # hears how far it is
 CHECKED = 10_000  # random points of a map: a million, as by the shell, take minutes
@@ -39,15 +37,8 @@ def scene_archive(state: State) -> Make:
     names = [name for name in state.folder.shown if name in text]
 
     def make() -> bytes:
-        contents = {"scene.toml": text.encode()}
-        contents |= {name: (folder / name).read_bytes() for name in names}
-        out = io.BytesIO()
-        with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
-            for name, content in contents.items():
-                info = zipfile.ZipInfo(name, _DAY)
-                info.external_attr = 0o644 << 16
-                archive.writestr(info, content, zipfile.ZIP_DEFLATED)
-        return out.getvalue()
+        files = ((name, (folder / name).read_bytes()) for name in names)
+        return archived([("scene.toml", text.encode()), *files])
 
     return make
 

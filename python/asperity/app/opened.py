@@ -1,7 +1,7 @@
 """Scene files that are dropped, with the files that they name: of these none is looked for."""
 
 import io
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import PurePosixPath
 from typing import Any
 
@@ -10,7 +10,7 @@ from asperity.app.files import MOST_FILES, Folder, plain
 from asperity.base.diagnostics import must_be, must_have
 from asperity.io.archive import Archive
 from asperity.io.toml import read_toml_text
-from asperity.scene.keys import FILES
+from asperity.scene.keys import with_files
 from asperity.scene.scene import check_tables
 
 Dropped = Sequence[tuple[str, bytes]]  # names as the client has them, and contents
@@ -42,7 +42,10 @@ def opened(dropped: Dropped, folder: Folder) -> tuple[str, Tables, list[str]]:
         return kept[-1]
 
     try:
-        tables = {one: _with_files(one, table, here) for one, table in tables.items()}
+        tables = {
+            one: {key: with_files(f"{one}.{key}", value, here) for key, value in table.items()}
+            for one, table in tables.items()
+        }
     except InvalidInput:
         for one in kept:
             folder.forget(one)
@@ -79,16 +82,3 @@ def _tables(name: str, content: bytes) -> Tables:
         if not isinstance(table, dict):
             raise must_be(key, "a table", where=name)
     return tables
-
-
-def _with_files(name: str, table: Mapping[str, Any], here: Callable[[str], str]) -> dict[str, Any]:
-    """The table with the names of files as they are here; what is no name is refused later."""
-    table = dict(table)
-    for key, value in table.items():
-        if f"{name}.{key}" not in FILES:
-            continue
-        if isinstance(value, str):
-            table[key] = here(value)
-        elif isinstance(value, list) and all(isinstance(one, str) for one in value):
-            table[key] = [here(one) for one in value]
-    return table

@@ -1,11 +1,9 @@
 """`export_fmu`: a friction map, the code that reads it and its description in one file."""
 
 import hashlib
-import io
 import os
 import re
 import uuid
-import zipfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
@@ -15,13 +13,13 @@ from asperity.base.diagnostics import refusal
 from asperity.fmu.description import build_description, description
 from asperity.fmu.variables import variables
 from asperity.friction_map.look_up import FrictionMap
+from asperity.io.archive import archived
 from asperity.io.files import write_whole
 
 _MOST_POINTS = 1000000
 # the folder of a binary in the package and in FMI 3.0, that in FMI 2.0, and the end of its name
 PLATFORMS = {"x86_64-linux": ("linux64", ".so"), "x86_64-windows": ("win64", ".dll")}
 _FILES = Path(__file__).parent
-_DATE = (1980, 1, 1, 0, 0, 0)  # the same map gives the same bytes
 
 
 def export_fmu(
@@ -79,14 +77,7 @@ def export_fmu(
     choice(fmi, "fmi", ("2.0", "3.0"))
     if points is not None:
         points = whole(points, "points", lowest=1, highest=_MOST_POINTS)
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
-        for place, data in _files(map, name, fmi, points):
-            entry = zipfile.ZipInfo(place, _DATE)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            entry.external_attr = 0o644 << 16
-            archive.writestr(entry, data)
-    write_whole(target, content.getvalue())
+    write_whole(target, archived(_files(map, name, fmi, points)))
 
 
 def platforms() -> tuple[str, ...]:

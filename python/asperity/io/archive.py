@@ -1,7 +1,9 @@
 """ZIP archives, of which the sizes that they declare are not believed."""
 
+import io
 import os
 import zipfile
+from collections.abc import Iterable
 from pathlib import Path
 from typing import IO, Any, BinaryIO
 
@@ -13,6 +15,18 @@ from asperity.base.diagnostics import must_be
 _RATIO = 100  # of inflated to stored bytes: heights have 2 to 20, zeros 1000
 _FREE = 2**24  # bytes that any archive may inflate to
 _PIECE = 2**18
+_DATE = (1980, 1, 1, 0, 0, 0)  # of members that are written: the same contents give the same bytes
+
+
+def archived(contents: Iterable[tuple[str, bytes]]) -> bytes:
+    """The bytes of an archive of files with these names."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in contents:
+            entry = zipfile.ZipInfo(name, _DATE)
+            entry.external_attr = 0o644 << 16
+            archive.writestr(entry, content, zipfile.ZIP_DEFLATED)
+    return out.getvalue()
 
 
 class Archive:

@@ -11,13 +11,12 @@ from asperity.base.quantities import temperature_text
 from asperity.draw.figure import legend, new_figure, picture
 from asperity.draw.style import grey, palette
 from asperity.plot.rubber import draw_isotherms, draw_shifts
-from asperity.plot.surface import draw_line, draw_map, draw_spectrum, without_trend
+from asperity.plot.surface import draw_scan, draw_spectrum, without_trend
 from asperity.scene.model import Scene
 from asperity.scene.scan import flat, surface_spectrum
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.shift_factors import WlfFit
 from asperity.spectrum import TabulatedSpectrum
-from asperity.surface import HeightMap
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,11 +30,7 @@ def surface_figure(scene: Scene, path: Path) -> bytes:
     if scan is not None:
         values = scene.surface.values
         detrend = None if values["detrend"] == "none" else values["detrend"]
-        shown = flat(scan, detrend)
-        if isinstance(shown, HeightMap):
-            draw_map(panels[0], shown, scene.surface.lay)
-        else:
-            draw_line(panels[0], shown)
+        draw_scan(panels[0], flat(scan, detrend), scene.surface.lay)
         panels[0].set_title(without_trend(scan), fontsize="medium")
         measured = surface_spectrum(scan, window=values["window"], detrend=detrend)
         measured = measured.truncated(q1=measured.q1)

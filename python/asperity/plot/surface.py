@@ -12,7 +12,7 @@ from asperity.draw.style import grey, narrow, palette, paper
 from asperity.scene.scan import LAY, Lay, Scan, nyquist
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
-from asperity.surface import HeightMap, LineScan, metric_unit
+from asperity.surface import HeightMap, metric_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,10 +42,7 @@ def spectrum_figure(
         (left, raw, "(a) as measured"),
         (middle, flat, f"(b) {without_trend(raw)}"),
     ):
-        if isinstance(scan, HeightMap):
-            draw_map(axes, scan, lay)
-        else:
-            draw_line(axes, scan)
+        draw_scan(axes, scan, lay)
         axes.set_title(title, fontsize="medium", pad=_ABOVE)
     right.set_title("(c) spectrum", fontsize="medium", pad=_ABOVE)
     draw_spectrum(right, spectrum, fit, cutoff, end=nyquist(flat), floor=floor)
@@ -66,9 +63,13 @@ def _fit_to_maps(figure: "Figure", scan: HeightMap) -> None:
     figure.axes[0].get_gridspec().set_width_ratios([width, width, _SPECTRUM])  # type: ignore[union-attr]
 
 
-def draw_map(axes: "Axes", scan: HeightMap, lay: Lay | None = None) -> None:
+def draw_scan(axes: "Axes", scan: Scan, lay: Lay | None = None) -> None:
     """The heights, and the direction of the ridges where there is one."""
     scan.plot(axes)
+    if not isinstance(scan, HeightMap):
+        axes.lines[0].set_color(palette()[0])
+        axes.margins(x=0)
+        return
     axes.set_facecolor(grey(0.6))  # drop-outs
     if lay is not None and lay.ratio > LAY:
         size = np.multiply(scan.heights.shape, scan.pixel_size)
@@ -90,12 +91,6 @@ def _draw_lay(axes: "Axes", lay: Lay, size: NDArray[np.float64]) -> None:
         fontsize="small",
         bbox={"facecolor": paper(), "alpha": 0.8, "linewidth": 0, "boxstyle": "round,pad=0.2"},
     )
-
-
-def draw_line(axes: "Axes", scan: LineScan) -> None:
-    scan.plot(axes)
-    axes.lines[0].set_color(palette()[0])
-    axes.margins(x=0)
 
 
 def draw_spectrum(

@@ -1,6 +1,6 @@
 """Keys of a scene's own tables, and the names that errors on their arguments take."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -127,3 +127,12 @@ def files_of(tables: Mapping[str, Any]) -> list[str]:
         names = entries.get(field) if isinstance(entries, Mapping) else None
         files += [names] if isinstance(names, str) else list(names or [])
     return files
+
+
+def with_files(key: str, value: Any, here: Callable[[str], str]) -> Any:
+    """The value of a key with what `here` makes of the names of files in it, where it has some."""
+    if key in FILES and isinstance(value, str):
+        return here(value)
+    if key in FILES and isinstance(value, list) and all(isinstance(one, str) for one in value):
+        return [here(one) for one in value]
+    return value

@@ -15,7 +15,7 @@ from asperity.base.arguments import brief
 from asperity.base.diagnostics import Argument, Note, must_be, refusal
 from asperity.io.fields import nearest
 from asperity.results.friction import COLUMNS, HEAT
-from asperity.scene.keys import FILES, files_of
+from asperity.scene.keys import FILES, files_of, with_files
 from asperity.scene.scene import check_tables
 from asperity.sweep.axes import POINTS, PRESSURE, Axis, axes_of, with_values
 from asperity.sweep.parts import digest
@@ -108,8 +108,12 @@ def plan_of(
     check_tables(path, with_values(tables, {k: v[0] for a in axes for k, v in a.values.items()}))
     swept = {key for axis in axes for key in axis.values}
     folder = path.parent.absolute()
+
+    def found(file: str) -> str:  # from anywhere
+        return str(folder / file)
+
     template = {
-        name: {key: _absolute(folder, f"{name}.{key}", one) for key, one in table.items()}
+        name: {key: with_files(f"{name}.{key}", one, found) for key, one in table.items()}
         for name, table in tables.items()
     }
     # the axis that goes over a temperature takes the place of the scene's in the other unit
@@ -118,7 +122,16 @@ def plan_of(
             template["conditions"].pop(f"temperature_{other}", None)
     template = with_values(template, dict.fromkeys(swept - {"correction.kind"}))
     template.setdefault("conditions", {})
-    absolute = tuple(_with_files(folder, axis) for axis in axes)
+    absolute = tuple(
+        Axis(
+            axis.name,
+            {
+                key: tuple(with_files(key, one, found) for one in of) if key in FILES else of
+                for key, of in axis.values.items()
+            },
+        )
+        for axis in axes
+    )
     chosen = _variables(where, template, swept, variables)
     task = Task(
         path=str(path),
@@ -152,24 +165,6 @@ def _listed(value: Any) -> Any:
     if isinstance(value, Path | tuple):
         return str(value) if isinstance(value, Path) else list(value)
     raise TypeError(f"{brief(value)} in the scene")
-
-
-def _absolute(folder: Path, key: str, value: Any) -> Any:
-    """A value in which files are found from anywhere."""
-    if key in FILES and isinstance(value, str):
-        return str(folder / value)
-    if key in FILES and isinstance(value, list):
-        return [str(folder / one) for one in value]
-    return value
-
-
-def _with_files(folder: Path, axis: Axis) -> Axis:
-    """An axis whose files are found from anywhere."""
-    entries = {
-        key: tuple(_absolute(folder, key, value) for value in values) if key in FILES else values
-        for key, values in axis.values.items()
-    }
-    return Axis(axis.name, entries)
 
 
 def _all_files(tables: Mapping[str, Any], axes: Sequence[Axis]) -> Iterator[str]:

@@ -26,7 +26,6 @@ from asperity.spectrum import Spectrum, TabulatedSpectrum
 from asperity_scripts.validate.contacts import Contact
 
 Quantity = Literal["area", "energy"]
-Form = Literal["exact", "interpolated"]
 
 
 @dataclass(frozen=True)
@@ -37,7 +36,6 @@ class Model:
     call: str  # how it is made
     correction: Callable[[Contact], Correction | None]
     asperities: bool = False  # needs the macro-asperities' wavenumber
-    form: Form = "exact"
 
 
 def _peaks(distance: str) -> Callable[[Contact], Correction | None]:
@@ -151,14 +149,13 @@ def predict(contact: Contact, model: Model) -> Prediction:
         velocity=1.0,
         poisson_ratio=0.0,
         correction=correction,
-        form=model.form,
     )
     return Prediction(
         contact,
         model,
         shift=float(result.shift_factor),
         area=float(result.contact_area),
-        energy=energy(contact, correction, model.form),
+        energy=energy(contact, correction),
     )
 
 
@@ -168,7 +165,7 @@ def _solid(contact: Contact) -> PronySeries:
     )
 
 
-def energy(contact: Contact, correction: Correction | None, form: Form = "exact") -> float:
+def energy(contact: Contact, correction: Correction | None) -> float:
     """Elastic energy per area, (pi E* / 2) int q^2 C W dq [J/m^2].
 
     W is the weight of q^3 C in the integrand of Eq. 22, A/A0 times S or over p_T^2: with W = 1 the
@@ -184,7 +181,6 @@ def energy(contact: Contact, correction: Correction | None, form: Form = "exact"
         velocity=1.0,
         poisson_ratio=0.0,
         correction=correction,
-        form=form,
         wavenumber=q,
     )
     total = np.sum(weight * q**2 * contact.spectrum.at(q) * factor)
