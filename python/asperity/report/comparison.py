@@ -1,8 +1,8 @@
 """Several scenes side by side: by which inputs they differ, and where their mu does."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 from asperity._core import Error
 from asperity.draw.figure import pressure_text
 from asperity.io.table import json_text
-from asperity.report.common_points import Points, at_points, common
 from asperity.report.texts import percent_text
 from asperity.scene.model import Scene, SceneFriction
 
+Array = NDArray[np.float64]
 _LONGEST = 60  # characters of an input that is shown
+MOST = 60  # velocities, or pressures, at which scenes are computed anew
+_SAME = 1e-9  # relative: entries of two sweeps that are one
 
 VERDICTS = (
     "by no more than the numerical error",
@@ -79,14 +81,67 @@ def _compared(
 ) -> tuple[str, Sequence[Difference]]:
     """Where two scenes are compared, and how they differ there."""
     try:
-        where = common(one, other)
+        where = _points(one, other)
         if isinstance(where, str):
             return where, []
-        first, second = at_points(one, a, where[0]), at_points(other, b, where[1])
+        first, second = _at_points(one, a, where[0]), _at_points(other, b, where[1])
     except Error as error:
         return f"They cannot be computed at the velocities of both: {error}.", []
     anew = first is not a or second is not b
     return _told(*where, anew=anew), _differences(where[0], first, second)
+
+
+class Points(NamedTuple):
+    """Every pressure with every velocity."""
+
+    pressure: Array  # [Pa], shape (n,)
+    velocity: Array  # [m/s], shape (m,)
+
+
+def _points(one: Scene, other: Scene) -> tuple[Points, Points] | str:
+    """Points of each of two scenes, by pairs; why there are none as a sentence.
+
+    Single pressures are compared as they are: they belong to what the scenes differ by.
+    """
+    velocity = _common(one.velocity, other.velocity)
+    if velocity is None:
+        spans = [f"{v.min():.3g} to {v.max():.3g} m/s" for v in (one.velocity, other.velocity)]
+        return f"The two have no velocity in common: {spans[0]}, and {spans[1]}."
+    if one.pressure.size == other.pressure.size == 1:
+        return Points(one.pressure, velocity), Points(other.pressure, velocity)
+    pressure = _common(one.pressure, other.pressure)
+    if pressure is None:
+        spans = [f"{p.min():.4g} to {p.max():.4g} Pa" for p in (one.pressure, other.pressure)]
+        return f"The two have no pressure in common: {spans[0]}, and {spans[1]}."
+    return Points(pressure, velocity), Points(pressure, velocity)
+
+
+def _common(a: Array, b: Array) -> Array | None:
+    """`a` where both are the same; else the entries of both where their ranges overlap."""
+    if _same(a, b):
+        return a
+    low, high = max(a.min(), b.min()), min(a.max(), b.max())
+    both = np.sort(np.concatenate([a, b]))
+    both = both[(both >= low * (1 - _SAME)) & (both <= high * (1 + _SAME))]
+    if not both.size:
+        return None
+    both = both[np.append(True, np.diff(both) > _SAME * both[1:])]
+    kept = np.linspace(0, both.size - 1, min(MOST, both.size)).round().astype(int)
+    result: Array = both[kept]
+    return result
+
+
+def _same(a: Array, b: Array) -> bool:
+    return a.size == b.size and np.allclose(a, b, rtol=_SAME, atol=0)
+
+
+def _at_points(scene: Scene, curves: SceneFriction, points: Points) -> SceneFriction:
+    """The curves where they are those of the points, else computed there, with their band."""
+    if _same(scene.pressure, points.pressure) and _same(scene.velocity, points.velocity):
+        return curves
+    moved = replace(scene, pressure=points.pressure, velocity=points.velocity)
+    result = moved.friction()
+    return result if curves.band is None else result.within(moved.band(result.mu))
 
 
 def _told(mine: Points, its: Points, *, anew: bool) -> str:
@@ -103,7 +158,7 @@ def _told(mine: Points, its: Points, *, anew: bool) -> str:
     return f"{text}. Where these are not points of a scene, it was computed there anew."
 
 
-def _pressures(pressure: NDArray[np.float64]) -> str:
+def _pressures(pressure: Array) -> str:
     if pressure.size == 1:
         return pressure_text(float(pressure[0]))
     low, high = (pressure_text(float(one)) for one in (pressure.min(), pressure.max()))

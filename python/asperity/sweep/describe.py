@@ -16,6 +16,7 @@ from asperity.io.aside import folder_beside
 from asperity.io.fields import without_unit
 from asperity.sweep.axes import Axis
 from asperity.sweep.chunks import BLOSC, FAILURE
+from asperity.sweep.outcome import Tally
 from asperity.sweep.plan import MEANINGS, Plan
 
 _FAILURE = {
@@ -43,6 +44,10 @@ class Described:
         self._inputs = json.dumps(self.inputs)
         self._sha = hashlib.sha256(self._inputs.encode())
 
+    def tally(self) -> Tally:
+        """What the sweep has before anything is computed."""
+        return Tally(notes={note: [-1] for note in self.notes})
+
     def digest_of(self, start: Sequence[int]) -> str:
         """What a box's numbers come from: all inputs, files among them, and where it begins."""
         sha = self._sha.copy()
@@ -59,7 +64,7 @@ class Described:
             "scene_axes": json.dumps(self._scene_axes),
         }
 
-    def dataset(self, values: Mapping[str, Any], failure: Any, tally: Any) -> Any:
+    def dataset(self, values: Mapping[str, Any], failure: Any, tally: Tally) -> Any:
         """The results in memory."""
         xarray = imported("xarray", "sweep")
         variables = {name: (self.dimensions, one, _said(name)) for name, one in values.items()}

@@ -1,4 +1,4 @@
-"""What came of a task: numbers of its box, and why some of them are missing."""
+"""What came of a task, numbers of its box and why some are missing, and of all of them so far."""
 
 import hashlib
 import math
@@ -10,13 +10,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import Error
-from asperity.base.diagnostics import Note
+from asperity.base.diagnostics import Note, fatal_first
 
 Numbers = NDArray[np.float64]
 
 
+@dataclass(kw_only=True)
+class Lacking:
+    """Why points have no numbers, and what was noted of those that have."""
+
+    messages: dict[int, str] = field(default_factory=dict)
+    kinds: dict[str, int] = field(default_factory=dict)  # failed points by kind of error
+    notes: dict[Note, list[int]] = field(default_factory=dict)  # with the scenes that have it
+
+    @property
+    def failed(self) -> int:
+        return sum(self.kinds.values())
+
+
 @dataclass
-class Outcome:
+class Outcome(Lacking):
     """What came of a task."""
 
     start: tuple[int, ...]
@@ -26,14 +39,7 @@ class Outcome:
     contents: list[bytes] | None = None  # of these files, until they are written
     failure: NDArray[np.int64] | None = None  # codes of messages, 0 where there is none
     refused: int = 0  # scenes that could not be built of such values
-    messages: dict[int, str] = field(default_factory=dict)
-    kinds: dict[str, int] = field(default_factory=dict)  # failed points by kind of error
-    notes: dict[Note, list[int]] = field(default_factory=dict)  # with the scenes that have it
     seconds: float = 0.0  # of the processor: what else the machine does cuts no tasks
-
-    @property
-    def failed(self) -> int:
-        return sum(self.kinds.values())
 
     @property
     def points(self) -> int:
@@ -81,3 +87,37 @@ def code_of(error: Error) -> int:
 def keep_message(messages: dict[int, str], code: int, message: str) -> None:
     """Keep one of the messages of a code, whichever order they come in."""
     messages[code] = min(message, messages.get(code, message))
+
+
+@dataclass
+class Tally(Lacking):
+    """What a sweep has so far, whichever order it came in; a note that is of all scenes has -1."""
+
+    points: int = 0
+
+    def add(self, outcome: Outcome) -> None:
+        self.points += outcome.points
+        for kind, count in outcome.kinds.items():
+            self.kinds[kind] = self.kinds.get(kind, 0) + count
+        for code, message in outcome.messages.items():
+            keep_message(self.messages, code, message)
+        for note, scenes in outcome.notes.items():
+            self.notes.setdefault(note, []).extend(scenes)
+
+    def attributes(self) -> dict[str, Any]:
+        notes = fatal_first(sorted(self.notes, key=lambda note: (min(self.notes[note]), note)))
+        texts: dict[str, Iterable[str]] = {
+            "notes": notes,
+            "note_labels": [note.label for note in notes],
+            "note_steps": [note.next_step for note in notes],
+            "note_scenes": [_runs(self.notes[note]) for note in notes],
+        }
+        return {**{name: "\n".join(of) for name, of in texts.items()}, "failed": self.failed}
+
+
+def _runs(scenes: Iterable[int]) -> str:
+    """Numbers of scenes as runs, from:to from:to, of which -1 is all of them."""
+    numbers = np.unique(np.fromiter(scenes, np.int64))
+    ends = np.flatnonzero(np.diff(numbers) > 1)
+    first, last = numbers[np.append(0, ends + 1)], numbers[np.append(ends, numbers.size - 1)]
+    return " ".join(f"{a}:{b}" for a, b in zip(first, last, strict=True))

@@ -26,8 +26,7 @@ from asperity.sweep.existing import (
     remove_store,
 )
 from asperity.sweep.plan import Plan, cut_of, plan_of
-from asperity.sweep.store import ZarrStore
-from asperity.sweep.tally import Memory
+from asperity.sweep.store import Memory, ZarrStore
 from asperity.sweep.task import work
 from asperity.sweep.timing import timed
 

@@ -1,4 +1,4 @@
-"""A Zarr store that outlives the sweep's driver."""
+"""Where results go: memory, or a Zarr store that outlives the sweep's driver."""
 
 import json
 import math
@@ -27,8 +27,35 @@ from asperity.sweep.existing import (
     refuse_taken,
 )
 from asperity.sweep.outcome import Outcome
-from asperity.sweep.tally import Tally
 from asperity.sweep.task import TOKEN, token_of, write_box
+
+
+class Memory:
+    """Results that are kept in memory."""
+
+    place = None
+
+    def __init__(self, described: Described) -> None:
+        self._described = described
+        shape = described.shape
+        self._values = {name: np.full(shape, np.nan) for name in described.variables}
+        self._failure = np.zeros(shape, np.int64)
+        self.tally = described.tally()
+
+    def has(self, _start: Sequence[int]) -> bool:
+        return False
+
+    def write(self, outcome: Outcome) -> None:
+        ends = zip(outcome.start, outcome.box, strict=True)
+        where = tuple(slice(start, start + size) for start, size in ends)
+        for name, values in self._values.items():
+            values[where] = outcome.values[name]
+        if outcome.failure is not None:
+            self._failure[where] = outcome.failure
+        self.tally.add(outcome)
+
+    def finish(self) -> Any:
+        return self._described.dataset(self._values, self._failure, self.tally)
 
 
 class ZarrStore:
@@ -87,7 +114,7 @@ class ZarrStore:
         if not token:
             raise InvalidInput(f"is damaged: {TOKEN} cannot be read", where=FilePath(path))
         self.place = Place(str(path.absolute()), token, self.cut)
-        self.tally = Tally.of(described)
+        self.tally = described.tally()
         along = zip(described.shape, self.cut, strict=True)
         self._done = np.zeros([math.ceil(n / c) for n, c in along], bool)
         self._journal = Journal(path)

@@ -10,8 +10,7 @@ import pytest
 import asperity
 from asperity.cli.main import main
 from asperity.report import make
-from asperity.report.common_points import MOST
-from asperity.report.comparison import VERDICTS, compared
+from asperity.report.comparison import MOST, VERDICTS, compared
 from asperity.report.drawings import Drawings, Figure
 from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.scene import load_scene
