@@ -2,26 +2,15 @@
 
 import pytest
 
-from asperity import (
-    Adhesion,
-    FrictionMap,
-    PronySeries,
-    SelfAffineSpectrum,
-    export_fmu,
-    friction_map,
-)
+from asperity import Adhesion, FrictionMap, export_fmu, friction_map
 from helpers.fmus import BOX, Host, hot_map
+from helpers.mapped import ROAD
+from helpers.ridges import RUBBER
 
 
 @pytest.fixture(scope="session")
 def road() -> FrictionMap:
-    surface = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
-    rubber = PronySeries(
-        equilibrium_modulus=3e6,
-        moduli=[1e9, 3e8, 1e8, 1e7],
-        relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
-    )
-    return friction_map(surface, rubber, adhesion=Adhesion(shear_stress=8.3e6), **BOX, checked=0)
+    return friction_map(ROAD, RUBBER, adhesion=Adhesion(shear_stress=8.3e6), **BOX, checked=0)
 
 
 @pytest.fixture(scope="session")

@@ -5,12 +5,9 @@ import pytest
 
 import asperity
 from asperity import FrictionMap, InvalidInput, friction, friction_map
+from helpers.mapped import drawn
+from helpers.ridges import RUBBER
 
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=[1e9, 3e8, 1e8, 1e7],
-    relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
-)
 LAW = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 2e5}
 ROAD = asperity.SelfAffineSpectrum(**LAW, axis_ratio=2.0, lay=0.5)
 BOX = {"pressure": (5e4, 5e5), "velocity": (1e-4, 1.0)}
@@ -20,13 +17,6 @@ CORRECTIONS = [
     asperity.PartialContact(),
     asperity.GreenwoodWilliamson(z_max=3e-4, z_min=-2e-4),
 ]
-
-
-def points(n, seed=1):
-    random = np.random.default_rng(seed)
-    pressure = np.exp(random.uniform(*np.log(BOX["pressure"]), n))
-    velocity = np.exp(random.uniform(*np.log(BOX["velocity"]), n))
-    return pressure, velocity, random.uniform(-7, 7, n)
 
 
 def built(correction, **more):
@@ -46,7 +36,7 @@ def test_look_ups_are_friction_within_the_certified_error(correction):
     assert fmap.turns
     assert fmap.exceeded == 0
     assert fmap.largest_checked_error <= fmap.max_error <= 2e-3
-    pressure, velocity, angle = points(40)
+    pressure, velocity, angle = drawn(40, BOX, (-7, 7))
     mu, lateral, area = (
         getattr(fmap, name)(pressure, velocity, direction=angle)
         for name in ("mu", "lateral", "contact_area")

@@ -20,27 +20,18 @@ from asperity import (
     PartialContact,
     PeaksThenGreenwoodWilliamson,
     PronySeries,
-    SelfAffineSpectrum,
     SFactor,
     friction,
     friction_map,
 )
 from helpers.cases import long
+from helpers.mapped import ROAD, drawn, measured
+from helpers.ridges import RUBBER
 
-ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
-RUBBER = PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=[1e9, 3e8, 1e8, 1e7],
-    relaxation_times=[1e-8, 1e-6, 1e-4, 1e-2],
-)
+MEASURED = measured(RUBBER, 1e7, 200)
 ADHESION = Adhesion(shear_stress=8.3e6)
 BOX = {"pressure": (5e4, 1e6), "velocity": (1e-5, 3.0)}
 PEAKS = [1.1e-4, 2.9e-4, 4.2e-4, 0.3e-4, 2.2e-4]
-
-
-def random_points(count, box=BOX, seed=1):
-    draws = np.random.default_rng(seed)
-    return [np.exp(draws.uniform(*np.log(box[name]), count)) for name in ("pressure", "velocity")]
 
 
 def made(correction=None, rubber=RUBBER, adhesion=ADHESION, road=ROAD, box=BOX, **options):
@@ -51,12 +42,6 @@ def made(correction=None, rubber=RUBBER, adhesion=ADHESION, road=ROAD, box=BOX, 
 @pytest.fixture(scope="module")
 def road_map():
     return made(SFactor())
-
-
-def master_curve():
-    w = np.geomspace(1e-3, 1e7, 200)
-    e = RUBBER.modulus(w)
-    return asperity.MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
 
 
 def noisy_master_curve():
@@ -91,7 +76,7 @@ SCENES = {
     "gw peaks": {"correction": GreenwoodWilliamson(z_max=9e-4, z_min=-8e-4, peaks=PEAKS)},
     "combined": {"correction": PeaksThenGreenwoodWilliamson(PEAKS, z_max=9e-4, z_min=-8e-4)},
     "interpolated": {"form": "interpolated"},
-    "master curve": {"rubber": master_curve()},
+    "master curve": {"rubber": MEASURED},
     "noise": {"rubber": noisy_master_curve()},
     "jumps": {"road": rings_with_jumps(), "correction": NayakSFactor()},
     "many peaks": {
@@ -116,7 +101,7 @@ def test_a_map_is_as_good_as_it_says(name, rtol):
     scene = {**plain, **SCENES[name]}
     result = made(**scene, rtol=rtol)
     assert 0 < result.max_error <= rtol
-    p, v = random_points(3000)
+    p, v = drawn(3000, BOX)
     parts = scene.pop("road"), scene.pop("rubber")
     truth = friction(*parts, pressure=p, velocity=v, adhesion=ADHESION, rtol=1e-10, **scene)
     for quantity in ("mu", "hysteresis", "adhesion", "contact_area"):
@@ -138,7 +123,7 @@ def test_the_check_adds_the_error_of_the_solver():
     q = 2e3 + 40 * np.arange(400.0)
     road = asperity.TabulatedSpectrum(wavenumber=q, density=ROAD.at(q))
     box = {"pressure": (1e5, 1.0001e5), "velocity": (0.1, 0.10001)}
-    scene = {"correction": NayakSFactor(), "rubber": master_curve(), "adhesion": None}
+    scene = {"correction": NayakSFactor(), "rubber": MEASURED, "adhesion": None}
     result = made(road=road, box=box, checked=200, **scene)
     solved = friction(road, **scene, pressure=1e5, velocity=0.1, rtol=1e-6)
     assert result.largest_checked_error > 0.9 * solved.error_estimate / solved.mu
@@ -176,7 +161,7 @@ def test_kinks_beside_the_edge_of_a_patch_are_seen():
 @pytest.mark.parametrize("name", ["none", "s-factor", "master curve"])
 def test_values_and_slopes_have_no_steps(name):
     result = made(**SCENES[name])
-    p, v = random_points(40_000, seed=2)
+    p, v = drawn(40_000, BOX, seed=2)
     step = 1e-7  # so many of them cross a side of a cell
     for dp, dv in ((step, 0.0), (0.0, step)):
         there = p * np.exp(dp), v * np.exp(dv)
@@ -194,7 +179,7 @@ def test_values_and_slopes_have_no_steps(name):
 
 
 def test_slopes_are_those_of_the_solver(road_map):
-    p, v = random_points(200, {"pressure": (6e4, 9e5), "velocity": (1.2e-5, 2.5)})
+    p, v = drawn(200, {"pressure": (6e4, 9e5), "velocity": (1.2e-5, 2.5)})
     options = {"correction": SFactor(), "adhesion": ADHESION, "rtol": 1e-11}
     step = 1e-3
     slopes = road_map.derivatives(p, v)
@@ -232,7 +217,7 @@ def test_another_temperature_shifts_the_velocity(road_map):
 
 
 def test_traction_is_odd_and_nought_at_rest_and_without_load(road_map):
-    p, v = random_points(20)
+    p, v = drawn(20, BOX)
     np.testing.assert_allclose(road_map.traction(p, v), road_map.mu(p, v) * p, rtol=1e-14)
     np.testing.assert_array_equal(road_map.traction(p, -v), -road_map.traction(p, v))
     np.testing.assert_array_equal(road_map.mu(p, -v), road_map.mu(p, v))  # which is even
@@ -378,7 +363,7 @@ def stuck(**law):
         ("pressure", box(pressure=(1e-310, 1e5))),  # which a file cannot hold
         ("velocity", box(velocity=(0.1, 0.1))),
         ("velocity", box(velocity=(0.0, 0.1))),
-        ("velocity", box(velocity=(1e-5, 1e4)) | {"rubber": master_curve()}),  # not measured
+        ("velocity", box(velocity=(1e-5, 1e4)) | {"rubber": MEASURED}),  # not measured
         ("rtol", {"rtol": 0.0}),
         ("rtol", {"rtol": 0.2}),
         ("rtol", {"rtol": np.nan}),
@@ -398,7 +383,7 @@ def test_what_no_map_is_made_of_is_refused(argument, given):
 
 def test_an_elastic_rubber_has_area_and_adhesion_alone():
     result = made(**SCENES["elastic"])
-    p, v = random_points(10)
+    p, v = drawn(10, BOX)
     np.testing.assert_array_equal(result.hysteresis(p, v), 0)
     np.testing.assert_allclose(result.mu(p, v), result.adhesion(p, v), rtol=1e-14)
     bare = made(**SCENES["elastic"], adhesion=None)

@@ -13,12 +13,11 @@ from asperity import (
     GreenwoodWilliamson,
     InvalidInput,
     PronySeries,
-    SelfAffineSpectrum,
     friction_map,
 )
 from helpers.map_layout import ByLayout
+from helpers.mapped import ROAD
 
-ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
 RUBBER = PronySeries(equilibrium_modulus=3e6, moduli=[1e9, 1e7], relaxation_times=[1e-8, 1e-4])
 BOX = {"pressure": (5e4, 1e6), "velocity": (1e-5, 3.0)}
 KINDS = {

@@ -6,44 +6,27 @@ import pytest
 import asperity
 from asperity import FrictionMap, friction, friction_map
 from helpers.cases import long
+from helpers.mapped import HEAT, drawn, measured
+from helpers.mapped import ROAD as ROUND
+from helpers.mapped import WARM_RUBBER as RUBBER
 
-RUBBER = asperity.PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
-    relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
-)
 Q = np.geomspace(2e3, 2e4, 20)
-MEAN = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
 RIDGES = {"cosine": np.full((20, 1), 0.25), "sine": np.full((20, 1), 0.2)}
-ROAD = asperity.TabulatedSpectrum(wavenumber=Q, density=MEAN.at(Q), **RIDGES)
+ROAD = asperity.TabulatedSpectrum(wavenumber=Q, density=ROUND.at(Q), **RIDGES)
 BOX = {"pressure": (8e4, 1.5e5), "velocity": (0.1, 1.0)}
 RANGE = (288.15, 298.15)
-HEAT = {
-    "shift": asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15),
-    "heating": asperity.Heating(
-        density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3
-    ),
-}
 SCENE = HEAT | {"direction": 1.2, "adhesion": asperity.Adhesion(shear_stress=2e6)}
-
-
-def measured():
-    w = np.geomspace(1e-3, 1e11, 60)
-    e = RUBBER.modulus(w)
-    return asperity.MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
 
 
 MAPS = {
     "one": (RUBBER, 293.15, BOX, 2e-3),
     "range": (RUBBER, RANGE, BOX, 2e-2),
-    "slanted": (measured(), (293.15, 294.15), BOX, 3e-2),
+    "slanted": (measured(RUBBER, 1e11, 60), (293.15, 294.15), BOX, 3e-2),
 }
 
 
 def points(n, temperature, box):
-    draws = np.random.default_rng(1)
-    p, v = (np.exp(draws.uniform(*np.log(box[name]), n)) for name in ("pressure", "velocity"))
-    return p, v, draws.uniform(np.min(temperature), np.max(temperature), n)
+    return drawn(n, box, (np.min(temperature), np.max(temperature)))
 
 
 @pytest.fixture(scope="module", params=["one", "range", long("slanted")])

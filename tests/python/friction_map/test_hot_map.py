@@ -4,48 +4,31 @@ import numpy as np
 import pytest
 
 from asperity import (
-    WLF,
     Adhesion,
     FrictionMap,
     GreenwoodWilliamson,
-    Heating,
     InvalidInput,
-    MasterCurve,
     NayakSFactor,
     NotConverged,
     OutOfRange,
     PronySeries,
-    SelfAffineSpectrum,
     SFactor,
     friction,
     friction_map,
 )
 from helpers.cases import long
+from helpers.mapped import HEAT, LAW, ROAD, drawn, measured
+from helpers.mapped import WARM_RUBBER as RUBBER
 
-ROAD = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
-RUBBER = PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
-    relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
-)
 ADHESION = Adhesion(shear_stress=8.3e6)
-LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
-TREAD = Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
 BOX = {"pressure": (1e5, 3e5), "velocity": (0.05, 10.0)}
 RANGE = (288.15, 298.15)
-HEAT = {"shift": LAW, "heating": TREAD}
 PARTS = ("mu", "hysteresis", "adhesion", "contact_area")
 
 
 def made(temperature=293.15, rubber=RUBBER, adhesion=ADHESION, box=BOX, **options):
     options = {"checked": 0, "rtol": 1e-3, **HEAT, **options}
     return friction_map(ROAD, rubber, temperature=temperature, adhesion=adhesion, **box, **options)
-
-
-def random_points(count, box=BOX, seed=1):
-    draws = np.random.default_rng(seed)
-    p, v = (np.exp(draws.uniform(*np.log(box[n]), count)) for n in ("pressure", "velocity"))
-    return p, v, draws.uniform(*RANGE, count)
 
 
 @pytest.fixture(scope="module")
@@ -58,19 +41,13 @@ def several():
     return made(RANGE, checked=1000)
 
 
-def measured():
-    w = np.geomspace(1e-3, 1e11, 300)
-    e = RUBBER.modulus(w)
-    return MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
-
-
 SCENES = {
     "none": {},
     "s-factor": {"correction": SFactor(applies_to="both")},
     "nayak": {"correction": NayakSFactor()},
     "no adhesion": {"adhesion": None},
     "interpolated": {"form": "interpolated"},
-    "master curve": {"rubber": measured()},
+    "master curve": {"rubber": measured(RUBBER, 1e11, 300)},
 }
 
 
@@ -87,7 +64,7 @@ def test_a_hot_map_is_as_good_as_it_says(name, rtol):
     result = made(**scene, rtol=rtol)
     assert 0 < result.max_error <= rtol
     assert result.temperature == (293.15, 293.15)
-    p, v, _ = random_points(300)
+    p, v, _ = drawn(300, BOX, RANGE)
     at = {"pressure": p, "velocity": v, "temperature": 293.15}
     truth = friction(ROAD, scene.pop("rubber"), **at, **HEAT, **scene, rtol=1e-9)
     assert (np.abs(truth.mu / truth.cold.mu - 1) > 0.1).any()
@@ -103,7 +80,7 @@ def test_a_hot_map_is_as_good_as_it_says(name, rtol):
 def test_so_is_one_with_an_axis_of_temperature(several):
     assert several.temperature == RANGE
     assert several.max_error <= several.rtol
-    p, v, t = random_points(300)
+    p, v, t = drawn(300, BOX, RANGE)
     at = {"pressure": p, "velocity": v, "temperature": t}
     truth = friction(ROAD, RUBBER, **at, **HEAT, adhesion=ADHESION, rtol=1e-9)
     begun = several.cold.mu(p, v, a_T=10 ** (LAW.log10_a_T(t) - LAW.log10_a_T(RANGE[0])))
@@ -125,7 +102,7 @@ def test_hysteresis_is_as_good_where_adhesion_is_25_000_times_as_much():
     box = {"pressure": (1e5, 4e5), "velocity": (1e-2, 0.1)}
     result = made(rubber=nearly_elastic, box=box, checked=400)
     assert (result.max_error <= result.rtol, result.exceeded) == (True, 0)
-    p, v, _ = random_points(100, box)
+    p, v, _ = drawn(100, box, RANGE)
     at = {"pressure": p, "velocity": v, "temperature": 293.15}
     truth = friction(ROAD, nearly_elastic, **at, **HEAT, adhesion=ADHESION, rtol=1e-10)
     assert (truth.adhesion > 2e4 * truth.hysteresis).all()
@@ -147,7 +124,7 @@ def test_what_heat_hardly_changes_is_the_error_of_its_memory():
 @pytest.mark.parametrize("which", ["one", "several"])
 def test_sliding_that_begins_heats_up_over_the_sliding_length(which, request):
     result = request.getfixturevalue(which)
-    p, v, t = random_points(200, seed=2)
+    p, v, t = drawn(200, BOX, RANGE, seed=2)
     if which == "one":
         t = np.full_like(t, 293.15)
     at = {"pressure": p, "velocity": v, "temperature": t}
@@ -228,7 +205,7 @@ def test_without_heating_the_rubber_is_shifted_to_the_temperature():
     options = {"checked": 0, "rtol": 1e-2, **BOX}
     result = friction_map(ROAD, RUBBER, temperature=303.15, shift=LAW, **options)
     by_hand = friction_map(ROAD, RUBBER.shifted(10 ** LAW.log10_a_T(303.15)), **options)
-    p, v, _ = random_points(50)
+    p, v, _ = drawn(50, BOX, RANGE)
     np.testing.assert_array_equal(result.mu(p, v), by_hand.mu(p, v))
 
 

@@ -4,42 +4,26 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity import WLF, Adhesion, Heating, MasterCurve, friction, friction_map
+from asperity import Adhesion, friction, friction_map
 from helpers.cases import long
 from helpers.map_layout import ByLayout
+from helpers.mapped import HEAT, LAW, ROAD, measured
+from helpers.mapped import WARM_RUBBER as SERIES
 
-ROAD = asperity.SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
-SERIES = asperity.PronySeries(
-    equilibrium_modulus=3e6,
-    moduli=[4e8, 3e8, 1e8, 3e7, 1e7],
-    relaxation_times=[1e-8, 1e-7, 1e-6, 1e-4, 1e-2],
-)
-LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
 RANGE = (288.15, 298.15)
 # ln a_T goes over 2.0: the first box is longer than that in ln v, the second shorter
 BOXES = {
     "wide": {"pressure": (1e5, 3e5), "velocity": (0.3, 4.0)},
     "narrow": {"pressure": (1e5, 3e5), "velocity": (1.5, 4.0)},
 }
-GIVEN = {
-    "shift": LAW,
-    "heating": Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3),
-    "adhesion": Adhesion(shear_stress=8.3e6),
-}
+GIVEN = HEAT | {"adhesion": Adhesion(shear_stress=8.3e6)}
 TABLE = asperity.ShiftFactors(  # whose a_T has kinks of its own
     reference_temperature=293.15, temperature=[280, 294, 310, 400], log10_a_T=[1.0, -0.1, -1, -4]
 )
 PARTS = ("mu", "hysteresis", "adhesion", "contact_area")
 
 
-def curve():
-    """Four rows a decade: the modulus has a kink at each."""
-    w = np.geomspace(1e-3, 1e11, 57)
-    e = SERIES.modulus(w)
-    return MasterCurve(angular_frequency=w, storage_modulus=e.real, loss_modulus=e.imag)
-
-
-CURVE = curve()
+CURVE = measured(SERIES, 1e11, 57)  # four rows a decade: the modulus has a kink at each
 
 
 @pytest.fixture(scope="module", params=BOXES)

@@ -9,15 +9,9 @@ import pytest
 from fmpy.fmi2 import FMU2Slave
 from fmpy.fmi3 import FMU3Slave
 
-from asperity import (
-    WLF,
-    FrictionMap,
-    Heating,
-    SelfAffineSpectrum,
-    friction_map,
-)
+from asperity import FrictionMap, friction_map
 from asperity.fmu.export import platforms
-from helpers.rubbers import prony
+from helpers.mapped import HEAT, ROAD, WARM_RUBBER, drawn
 
 HEADERS = Path(fmpy.__file__).parent / "c-code"  # of both standards
 BOX = {"pressure": (5e4, 1e6), "velocity": (1e-5, 3.0)}
@@ -99,18 +93,10 @@ def same(numbers):
 
 
 def points(count, seed=1):
-    draws = np.random.default_rng(seed)
-    pressure = np.exp(draws.uniform(*np.log(BOX["pressure"]), count))
-    velocity = np.exp(draws.uniform(*np.log(BOX["velocity"]), count))
-    return pressure, velocity * draws.choice([-1, 1], count)
-
-
-TREAD = Heating(density=1200, heat_capacity=1650, conductivity=0.23, contact_diameter=1e-3)
-LAW = WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+    pressure, velocity, side = drawn(count, BOX, (-1, 1), seed)
+    return pressure, velocity * np.sign(side)
 
 
 def hot_map(temperature: float | tuple[float, float]) -> FrictionMap:
-    surface = SelfAffineSpectrum(rms_height=265.7e-6, hurst=0.87, q0=2e3, q1=2e4)
-    rubber = prony(3e6, [4e8, 3e8, 1e8, 3e7, 1e7], [1e-8, 1e-7, 1e-6, 1e-4, 1e-2])
     box = {"pressure": (8e4, 4e5), "velocity": (0.5, 2.0), "temperature": temperature}
-    return friction_map(surface, rubber, **box, shift=LAW, heating=TREAD, checked=0, rtol=3e-2)
+    return friction_map(ROAD, WARM_RUBBER, **box, **HEAT, checked=0, rtol=3e-2)
