@@ -36,6 +36,7 @@ _NAMES = {
     TEMPERATURE: "temperature",
     DIRECTION: "direction",
 }
+TOO_NARROW = ",\ntoo narrow to see"  # ends the entry of a band that cannot be seen
 _WIDTH = 1.8  # points, of the line of mu
 _HALO = 0.03  # of mu, to either side of a part that is guessed
 _SAME = 0.01  # relative, of two curves that lie on one another
@@ -315,7 +316,7 @@ def _tell_band(axes: "Axes", label: str, *, seen: bool, **look: Any) -> None:
     if seen:
         axes.fill_between([], [], **look, label=label)
     else:
-        axes.plot([], [], linestyle="", label=f"{label},\ntoo narrow to see")
+        axes.plot([], [], linestyle="", label=label + TOO_NARROW)
 
 
 def _tell_errors(axes: "Axes", curves: Sequence[Curve], model: str) -> None:

@@ -9,8 +9,8 @@ import numpy as np
 
 from asperity.adhesion import AdhesionFit
 from asperity.base.quantities import ZERO_CELSIUS
-from asperity.draw.figure import MOST_ENTRIES, new_figure, picture, pressure_text, shaded
-from asperity.draw.friction import band_text
+from asperity.draw.figure import MOST_ENTRIES, VELOCITY, new_figure, picture, pressure_text
+from asperity.draw.friction import TOO_NARROW, band_text, curves_of, draw_friction
 from asperity.draw.style import colours, grey, narrow
 from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
 from asperity.scene.scene_fit import SceneFit
@@ -36,13 +36,13 @@ def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> by
         if fit.adhesion is not None:
             told = _parameters(fit.adhesion)
         axes.set_title(f"{title}\n{told}", fontsize="small")
-        axes.set_ylim(0, highest)
-        axes.set(xscale="log", xlabel="Sliding velocity $v$ [m/s]")
-    panels[0].set_ylabel("Friction coefficient $\\mu$ [-]")
+        axes.set_ylim(top=highest)
     entries: dict[str, Any] = {}  # of both panels, each once: points may be put aside in one alone
     for axes in panels:
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True):
             entries.setdefault(label, handle)
+    for label in list(entries):  # what is seen in the other panel is no longer unseen
+        entries.pop(label + TOO_NARROW, None)
     where: Any = "outside lower center" if narrow() else "outside right upper"
     figure.legend(list(entries.values()), list(entries), loc=where, fontsize="small")
     return picture(figure, path)
@@ -73,9 +73,7 @@ def scene_fit_figure(fit: SceneFit, path: Path) -> bytes:
     first.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=interval)
     if fit.left_out is not None:
         first.plot([], [], "x", color=grey(0.3), ms=4.5, label="point left out of the fit")
-    first.set(
-        xscale="log", xlabel="Sliding velocity $v$ [m/s]", ylabel="Friction coefficient $\\mu$ [-]"
-    )
+    first.set(xscale="log", xlabel=VELOCITY, ylabel="Friction coefficient $\\mu$ [-]")
     first.set_ylim(0, 1.1 * max(float(fit.measured.max()), float(fit.mu.max())))
     sides = min(fit.measured.min(), fit.mu.min()), max(fit.measured.max(), fit.mu.max())
     second.plot(sides, sides, color=grey(0.5), linewidth=0.8, zorder=0)
@@ -91,39 +89,23 @@ def scene_fit_figure(fit: SceneFit, path: Path) -> bytes:
 
 
 def _draw(axes: "Axes", fit: Fitted, experiment: Experiment) -> None:
-    curves, scene = fit.curves, fit.scene
-    x, y = experiment.measured.velocity, experiment.measured.mu
-    aside = np.zeros(y.shape, bool)
+    """mu of the scene with its parts and its band, and the points in the colours of its curves."""
+    scene, measured = fit.scene, experiment.measured
+    given, celsius = [scene.temperature], scene.in_celsius
+    curves = list(curves_of([fit.curves], [""], VELOCITY, given, celsius=celsius))
+    band = "" if fit.curves.band is None else band_text(scene.sampling["level"])
+    tints = draw_friction(axes, curves, VELOCITY, band=band)
+    aside = np.zeros(measured.mu.shape, np.bool_)
     if fit.adhesion is not None:
-        aside = fit.adhesion.outliers
-    nearest = nearest_pressure(scene, experiment.pressure)
-    order = np.argsort(scene.velocity)
-    v = scene.velocity[order]
-    many = scene.pressure.size > MOST_ENTRIES
-    tints: Sequence[Any] = colours(scene.pressure.size)
-    if many:
-        tints = list(shaded(axes, scene.pressure, "Nominal pressure $\\sigma_0$ [Pa]"))
-    for i, (load, colour) in enumerate(zip(scene.pressure, tints, strict=True)):
-        of_load = nearest == i
-        label = None if many else f"measured, {pressure_text(float(load))}"
-        kept = of_load & ~aside
-        axes.plot(x[kept], y[kept], "o", color=colour, markersize=3.5, label=label)
-        axes.plot(x[of_load & aside], y[of_load & aside], "x", color=colour, markersize=4.5)
-        if curves.band is not None:
-            low, high = (bound[i, order] for bound in curves.band)
-            axes.fill_between(v, low, high, color=colour, alpha=0.2, linewidth=0)
-        axes.plot(v, curves.mu[i, order], "-", color=colour, linewidth=1.8)
-        axes.plot(v, curves.hysteresis[i, order], "--", color=colour, linewidth=1.2)
-        axes.plot(v, curves.adhesion[i, order], ":", color=colour, linewidth=1.2)
-    for dashes, name in (("-", "total"), ("--", "hysteresis"), (":", "adhesion")):
-        axes.plot([], [], dashes, color=grey(0.3), label=name)
-    if many:
-        axes.plot([], [], "o", color=grey(0.3), markersize=3.5, label="measured")
-    if aside.any():
-        axes.plot([], [], "x", color=grey(0.3), markersize=4.5, label="put aside")
-    if curves.band is not None:
-        label = band_text(scene.sampling["level"])
-        axes.fill_between([], [], color=grey(0.3), alpha=0.2, linewidth=0, label=label)
+        aside = np.asarray(fit.adhesion.outliers)
+    nearest = scene.pressure[nearest_pressure(scene, experiment.pressure)]
+    for points, mark, name in ((np.logical_not(aside), "o", "measured"), (aside, "x", "put aside")):
+        if not points.any():
+            continue
+        axes.plot([], [], mark, color=grey(0.3), markersize=4, label=name)
+        for curve, colour in zip(curves, tints, strict=True):
+            here = points & (nearest == curve.pressure)
+            axes.plot(measured.velocity[here], measured.mu[here], mark, color=colour, markersize=4)
 
 
 def _parameters(fit: AdhesionFit) -> str:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity.draw.figure import new_figure, picture
+from asperity.draw.figure import PRESSURE, VELOCITY, new_figure, picture
 from asperity.draw.style import narrow, shades
 from asperity.friction_map.look_up import FrictionMap
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+    pass
 
 _VELOCITIES, _PRESSURES = 241, 161
 _COARSER, _COARSER_HOT = 2, 5  # the grid of errors
@@ -31,7 +31,7 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
     velocity = _inside(made.velocity, _VELOCITIES)[None, :]
     figure, (left, right) = new_figure(2)
     for axes in (left, right):  # before the levels are labelled, which need to know the scales
-        _label(axes)
+        axes.set(xscale="log", yscale="log", xlabel=VELOCITY, ylabel=PRESSURE)
         axes.set(xlim=made.velocity, ylim=made.pressure)
     lowest = None if made.temperature is None else made.temperature[0]
     mu = made.mu(pressure, velocity, temperature=lowest)
@@ -68,12 +68,3 @@ def map_figure(made: FrictionMap, errors: _Errors, path: Path) -> bytes:
 def _inside(sides: tuple[float, float], count: int) -> NDArray[np.float64]:
     shares = (np.arange(count) + 0.5) / count
     return np.asarray(sides[0] * (sides[1] / sides[0]) ** shares)
-
-
-def _label(axes: "Axes") -> None:
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="Sliding velocity $v$ [m/s]",
-        ylabel="Nominal pressure $\\sigma_0$ [Pa]",
-    )
