@@ -125,12 +125,18 @@ def _lines_above(axes: "Axes") -> int:
     return highest
 
 
-def shaded(axes: "Axes", values: NDArray[np.float64], title: str) -> NDArray[np.float64]:
+def shaded(
+    axes: "Axes | Sequence[Axes]",
+    values: NDArray[np.float64],
+    title: str,
+    *,
+    linear: bool = False,
+) -> NDArray[np.float64]:
     """A colour a value, with a bar that tells them."""
     from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import LogNorm
+    from matplotlib.colors import LogNorm, Normalize
 
-    norm = LogNorm(float(values.min()), float(values.max()))
+    norm = (Normalize if linear else LogNorm)(float(values.min()), float(values.max()))
     bar(axes, ScalarMappable(norm, shades()), label=title)
     return np.asarray(shades()(norm(values)))
 
@@ -160,10 +166,9 @@ def named(axes: "Axes", names: Sequence[str]) -> None:
     drawn.ax.minorticks_off()
 
 
-def bar(axes: "Axes", colours_of: "ScalarMappable", **how: Any) -> Any:
+def bar(axes: "Axes | Sequence[Axes]", colours_of: "ScalarMappable", **how: Any) -> Any:
     """A colour bar beside axes."""
-    figure = axes.get_figure()
-    assert figure is not None
+    figure: Any = (axes[0] if isinstance(axes, Sequence) else axes).get_figure()
     return figure.colorbar(colours_of, ax=axes, **how)
 
 

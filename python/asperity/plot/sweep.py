@@ -14,9 +14,10 @@ from asperity.draw.figure import (
     VELOCITY,
     picture,
     pressure_text,
+    shaded,
     tell_fatal_notes,
 )
-from asperity.draw.style import colours, grey, narrow, shades
+from asperity.draw.style import colours, grey, narrow
 from asperity.io.fields import without_unit
 
 if TYPE_CHECKING:
@@ -37,7 +38,12 @@ def sweep_figure(dataset: Any, path: Path, name: str = "mu") -> bytes:
     across, down = (1 if axis is None else dataset.sizes[axis] for axis in (columns, rows))
     figure, panels = _grid(across, down)
     count = 1 if lines is None else dataset.sizes[lines]
-    tints = _tints(dataset, lines, count)
+    tints: Any = colours(count)
+    if count > MOST_ENTRIES:
+        values, title = dataset[lines].values, _title(dataset, lines)
+        tints = shaded(panels, values, title, linear=not _over_decades(values))
+    elif lines is not None:
+        _tell_colours(figure, dataset[lines], tints, _title(dataset, lines))
     with_band = name == "mu" and {"mu_low", "mu_high"} <= {*dataset} and count <= MOST_ENTRIES
     if with_band and np.isfinite(dataset["mu_low"]).any():
         fixed.append("shaded: the errors of the inputs")
@@ -64,7 +70,6 @@ def sweep_figure(dataset: Any, path: Path, name: str = "mu") -> bytes:
         axes.set_xlabel(_title(dataset, x))
     if fixed:
         figure.suptitle(", ".join(fixed), fontsize="medium")
-    _key(figure, panels, dataset, lines, tints)
     return picture(figure, path)
 
 
@@ -119,49 +124,29 @@ def _grid(across: int, down: int) -> "tuple[Figure, list[Axes]]":
     return figure, list(grid.ravel())
 
 
-def _tints(dataset: Any, lines: str | None, count: int) -> Any:
-    if lines is None or count <= MOST_ENTRIES:
-        return colours(count)
-    return shades()(_norm(dataset[lines].values)(dataset[lines].values))
-
-
-def _norm(values: Any) -> Any:
-    from matplotlib.colors import LogNorm, Normalize
-
-    low, high = float(values.min()), float(values.max())
-    return LogNorm(low, high) if low > 0 and high / low > 20 else Normalize(low, high)
+def _over_decades(values: Any) -> bool:
+    """Whether values are told apart on a logarithmic scale alone."""
+    return bool(values.min() > 0 and values.max() / values.min() > 20)
 
 
 def _dress(axes: "Axes", dataset: Any, x: str, panel: list[tuple[str, int]]) -> None:
-    values = dataset[x].values
-    if values.min() > 0 and values.max() / values.min() > 20:
+    if _over_decades(dataset[x].values):
         axes.set_xscale("log")
     axes.set_title(", ".join(_value(dataset[axis][i]) for axis, i in panel), fontsize="small")
     axes.tick_params(labelsize="small")
     axes.grid(color=grey(0.9), linewidth=0.5)
 
 
-def _key(
-    figure: "Figure", panels: "list[Axes]", dataset: Any, lines: str | None, tints: Any
-) -> None:
-    """What the colours mean: a legend of a few, a bar of many."""
-    if lines is None:
-        return
-    from matplotlib.cm import ScalarMappable
+def _tell_colours(figure: "Figure", lines: Any, tints: Any, title: str) -> None:
+    """A legend of what the colours mean."""
     from matplotlib.lines import Line2D
 
-    values = dataset[lines].values
-    if len(values) > MOST_ENTRIES:
-        bar = ScalarMappable(_norm(values), shades())
-        figure.colorbar(bar, ax=panels, label=_title(dataset, lines))
-        return
     handles = [Line2D([], [], color=tint) for tint in tints]
     where: Any = "outside lower center" if narrow() else "outside right upper"
-    pascal = _in_pascal(dataset[lines])
-    names = [pressure_text(float(one)) if pascal else _text(one) for one in values]
-    title = _short(lines) if pascal else _title(dataset, lines)
+    pascal = _in_pascal(lines)
+    names = [pressure_text(float(one)) if pascal else _text(one) for one in lines.values]
     small = {"fontsize": "small", "title_fontsize": "small"}
-    figure.legend(handles, names, loc=where, title=title, **small)
+    figure.legend(handles, names, loc=where, title=_short(lines.name) if pascal else title, **small)
 
 
 def _title(dataset: Any, axis: str) -> str:
