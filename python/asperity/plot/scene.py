@@ -63,14 +63,19 @@ def _draw_used(
 
 
 def rubber_figure(scene: Scene, path: Path) -> bytes:
-    """E(w) of the rubber with the frequencies that sliding asks for; of isotherms besides them and
-    the shift factors that made a master curve of them."""
+    """E(w) of the rubber with the frequencies that sliding asks for; of isotherms their points too,
+    and beside it them and the shift factors that made a master curve of them."""
     built = scene.built_rubber
     figure, panels = new_figure(1 if built.build is None else 3)
     axes = panels[-1]
     scene.rubber.plot(axes)
     for line, colour in zip(axes.lines, palette(), strict=False):
         line.set_color(colour)
+    if built.build is not None and built.temperature is not None:
+        points = built.build.points
+        w = points.angular_frequency / float(built.build.shift_factor(built.temperature))
+        axes.plot(w, points.storage_modulus, ".", ms=2.5, color=palette()[0], label="measured")
+        axes.plot(w, points.loss_modulus, ".", ms=2.5, color=palette()[1])
     asked = scene.velocity.min() * scene.spectrum.q0, scene.velocity.max() * scene.spectrum.q1
     low, high = axes.get_xlim()
     axes.axvspan(
