@@ -47,16 +47,10 @@ def grid_file(friction_map: FrictionMap, path: Path) -> tuple[bytes, float]:
         raise InvalidInput(
             Argument("--export"), f": {path}: the map covers {lowest:g} to {highest:g} K, {allowed}"
         )
-    pressure, velocity = (
-        np.geomspace(*sides, count)
-        for sides, count in (
-            (friction_map.pressure, _PRESSURES),
-            (friction_map.velocity, _VELOCITIES),
-        )
-    )
-    for side, box in ((pressure, friction_map.pressure), (velocity, friction_map.velocity)):
-        side[0], side[-1] = box  # to the last digit
-    axes = {"pressure_pa": pressure, "velocity_m_s": velocity}
+    axes = {
+        "pressure_pa": np.geomspace(*friction_map.pressure, _PRESSURES),
+        "velocity_m_s": np.geomspace(*friction_map.velocity, _VELOCITIES),
+    }
     if lowest < highest:
         axes["temperature_k"] = np.linspace(lowest, highest, _TEMPERATURES)
     error = _interpolation_error(friction_map, axes)

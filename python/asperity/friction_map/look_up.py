@@ -355,7 +355,8 @@ class FrictionMap(Table):
         """Say why a point has no value."""
         places = point["pressure"], point["velocity"], point["a_T"]
         heat = point.get("temperature", 0.0), point.get("distance", 0.0)
-        status = self._core.status(*places, *heat, point.get("direction", 0.0), *options)
+        turned = point.get("direction", 0.0)
+        status = self._core.status(*places, *heat, turned, *options)
         outside = {
             _PRESSURE_OUTSIDE: ("pressure", "Pa"),
             _VELOCITY_OUTSIDE: ("velocity", "m/s"),
@@ -369,19 +370,15 @@ class FrictionMap(Table):
             value = valued(point[name], f"{point[name]:.12g}")
             box = f": {rule} [{lo:.12g}, {hi:.12g}] {unit}"
             raise OutOfRange(Argument(name), f"{index} = ", value, box, code="outside-map")
-        for name, result in point.items():
-            if name != "a_T" and np.isnan(result):
-                raise InvalidInput(
-                    Argument(name), f"{index} = ", valued(np.nan), MUST_BE, "a number"
-                )
-        if heat[1] < 0:
-            value = valued(heat[1], f"{heat[1]:.12g}")
-            raise InvalidInput(Argument("distance"), f"{index} = ", value, MUST_BE, "0 or more")
-        if not np.isfinite(turned := point.get("direction", 0.0)):
-            value = valued(turned)
-            raise InvalidInput(Argument("direction"), f"{index} = ", value, MUST_BE, "finite")
-        value = valued(point["a_T"], f"{point['a_T']:.12g}")
-        raise InvalidInput(Argument("a_T"), f"{index} = ", value, MUST_BE, "positive and finite")
+        rules = [(name, np.isnan(one), "a number") for name, one in point.items() if name != "a_T"]
+        rules += [
+            ("distance", heat[1] < 0, "0 or more"),
+            ("direction", not np.isfinite(turned), "finite"),
+            ("a_T", True, "positive and finite"),
+        ]
+        name, rule = next((name, rule) for name, broken, rule in rules if broken)
+        value = valued(point[name], f"{point[name]:.12g}")
+        raise InvalidInput(Argument(name), f"{index} = ", value, MUST_BE, rule)
 
     def _summary(self) -> dict[str, Any]:
         return {

@@ -12,6 +12,7 @@ import asperity
 from asperity.app import files, opened
 from asperity.app.downloads import scene_archive
 from asperity.app.state import State
+from asperity.io.archive import archived
 from asperity.scene.scene import load_scene
 from helpers.dropped import dma_bytes, scan_bytes
 
@@ -96,14 +97,6 @@ def test_a_scene_without_files_or_temperature(state: State) -> None:
     assert scene.correction is scene.adhesion is scene.heating is None
 
 
-def zipped(*pairs: tuple[str, bytes]) -> bytes:
-    out = io.BytesIO()
-    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name, content in pairs:
-            archive.writestr(name, content)
-    return out.getvalue()
-
-
 RMS = "rms_height_m = 1e-5\n"
 
 
@@ -128,8 +121,8 @@ REFUSED = {
     "pressures": ("[conditions] pressure_pa", ("a.toml", scene_with("2e5", "[1e5, 2e5]"))),
     "a bad value": ("hurst", ("a.toml", scene_with("hurst = 0.8", "hurst = 8"))),
     "no archive": ("a.zip: cannot be unpacked", ("a.zip", b"PK\x03\x04")),
-    "empty archive": ("0 scenes", ("a.zip", zipped())),
-    "a path": ("a.toml names", ("a.zip", zipped(("../../a.toml", WITH_FILES.encode())))),
+    "empty archive": ("0 scenes", ("a.zip", archived([]))),
+    "a path": ("a.toml names", ("a.zip", archived([("../../a.toml", WITH_FILES.encode())]))),
 }
 
 
@@ -146,7 +139,7 @@ def test_what_cannot_be_opened_is_refused_and_changes_nothing(case: str, state: 
 
 
 def test_an_archive_has_few_files(state: State) -> None:
-    many = zipped(*((f"{i}.npy", b"1") for i in range(files.MOST_FILES + 1)))
+    many = archived((f"{i}.npy", b"1") for i in range(files.MOST_FILES + 1))
     with pytest.raises(asperity.InvalidInput, match=r"a\.zip: holds 41 files: must be at most 40"):
         state.open_scene([("a.zip", many)])()
 

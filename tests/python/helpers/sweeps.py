@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from asperity import PronySeries
 from asperity.scene.scene import build_scene
 
 RUBBER = {
@@ -20,6 +21,25 @@ SCENE = {
     "conditions": {"pressure_pa": 1e5, "velocity_m_s": {"from": 1e-6, "to": 1, "points": 7}},
 }
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
+HEATED = SCENE | {
+    "rubber": {**RUBBER, "reference_temperature_c": 20, "wlf_c1": 8.86, "wlf_c2_k": 101.6},
+    "heating": {
+        "density_kg_m3": 1200,
+        "heat_capacity_j_kg_k": 1650,
+        "conductivity_w_m_k": 0.23,
+        "contact_diameter_m": 1e-3,
+    },
+}
+
+
+def measured(path, w, factor=1):
+    """Write a master curve over these frequencies; return its name."""
+    rubber = PronySeries(equilibrium_modulus=3e6, moduli=[1e8], relaxation_times=[1e-4])
+    e = factor * rubber.modulus(w)
+    lines = [f"{a},{b.real},{b.imag}" for a, b in zip(w, e, strict=True)]
+    header = "angular_frequency_rad_s,storage_modulus_pa,loss_modulus_pa"
+    path.write_text("\n".join([header, *lines]))
+    return str(path)
 
 
 def _column(result, name):

@@ -5,18 +5,11 @@ import pytest
 
 import asperity
 from asperity.sweep import plan, run
-from helpers.sweeps import RUBBER, SCENE
+from helpers.sweeps import HEATED, SCENE, measured
 
 xarray = pytest.importorskip("xarray", reason="a sweep needs asperity[sweep]")
 
-HOT = SCENE | {
-    "rubber": {**RUBBER, "reference_temperature_c": 20, "wlf_c1": 8.86, "wlf_c2_k": 101.6},
-    "heating": {
-        "density_kg_m3": 1200,
-        "heat_capacity_j_kg_k": 1650,
-        "conductivity_w_m_k": 0.23,
-        "contact_diameter_m": 1e-3,
-    },
+HOT = HEATED | {
     "conditions": {
         "pressure_pa": [1e5, 4e5],
         "velocity_m_s": {"from": 0.1, "to": 10, "points": 5},
@@ -60,19 +53,10 @@ def test_the_velocity_of_a_scene_is_checked_as_that_of_any_other():
         at(1e9)
 
 
-def measured(tmp_path, w):
-    """The name of a master curve over these frequencies."""
-    e = asperity.PronySeries(
-        equilibrium_modulus=3e6, moduli=[1e8], relaxation_times=[1e-4]
-    ).modulus(w)
-    lines = [f"{a},{b.real},{b.imag}" for a, b in zip(w, e, strict=True)]
-    header = "angular_frequency_rad_s,storage_modulus_pa,loss_modulus_pa"
-    (tmp_path / "curve.csv").write_text("\n".join([header, *lines]))
-    return str(tmp_path / "curve.csv")
-
-
 def test_every_code_has_a_text(tmp_path):
-    scene = SCENE | {"rubber": {"master_curve": measured(tmp_path, np.geomspace(1e1, 1e7, 40))}}
+    scene = SCENE | {
+        "rubber": {"master_curve": measured(tmp_path / "curve.csv", np.geomspace(1e1, 1e7, 40))}
+    }
     velocities = np.geomspace(2e2, 4e2, 1200)  # each fails with a text of its own
     over = {"conditions.velocity_m_s": velocities, "surface.q1_per_m": [1e3, 1e5]}
     result = asperity.sweep(scene, over, variables=["mu"])
@@ -88,7 +72,7 @@ def test_every_code_has_a_text(tmp_path):
 def test_a_point_without_a_band_takes_no_other_with_it(folder):
     tables = {
         "surface": {"file": "scan.npy", "pixel_size_m": [2e-5, 1e-5], "unit": "m"},
-        "rubber": {"master_curve": measured(folder, np.geomspace(1e-3, 1e7, 60))},
+        "rubber": {"master_curve": measured(folder / "curve.csv", np.geomspace(1e-3, 1e7, 60))},
         "conditions": {"velocity_m_s": [1e-2, 1e-1], "pressure_pa": [1e5, 2e5]},
         "uncertainty": {"samples": 20},
     }

@@ -11,7 +11,7 @@ import pytest
 import asperity
 from asperity.scene.kept import Kept
 from asperity.sweep import parts, plan, run
-from helpers.sweeps import COLUMNS, RUBBER, SCENE, plain_loop
+from helpers.sweeps import COLUMNS, HEATED, RUBBER, SCENE, measured, plain_loop
 
 xarray = pytest.importorskip("xarray", reason="a sweep needs asperity[sweep]")
 
@@ -142,13 +142,8 @@ def test_files_are_an_axis_and_each_is_read_once(tmp_path, monkeypatch):
             f"{seed}.npy",
             asperity.synthesize(road, shape=(64, 64), pixel_size=1e-5, seed=seed).heights,
         )
-    w = np.geomspace(1e-4, 1e12, 60)
-    curve = asperity.PronySeries(equilibrium_modulus=3e6, moduli=[1e8], relaxation_times=[1e-4])
-    e = curve.modulus(w)
     for k, name in enumerate(("soft.csv", "hard.csv")):
-        lines = [f"{a},{(1 + k) * b.real},{(1 + k) * b.imag}" for a, b in zip(w, e, strict=True)]
-        header = "angular_frequency_rad_s,storage_modulus_pa,loss_modulus_pa"
-        (tmp_path / name).write_text("\n".join([header, *lines]))
+        measured(tmp_path / name, np.geomspace(1e-4, 1e12, 60), 1 + k)
     over = {
         "surface.file": ["1.npy", "2.npy"],
         "rubber.master_curve": ["soft.csv", "hard.csv"],
@@ -174,15 +169,8 @@ def test_files_are_an_axis_and_each_is_read_once(tmp_path, monkeypatch):
 
 
 def test_heat_and_temperatures_are_in_it():
-    rubber = {**RUBBER, "reference_temperature_c": 20, "wlf_c1": 8.86, "wlf_c2_k": 101.6}
-    heating = {
-        "density_kg_m3": 1200,
-        "heat_capacity_j_kg_k": 1650,
-        "conductivity_w_m_k": 0.23,
-        "contact_diameter_m": 1e-3,
-    }
     conditions = {"pressure_pa": 1e5, "velocity_m_s": [1e-3, 1.0], "temperature_c": 20}
-    scene = SCENE | {"rubber": rubber, "heating": heating, "conditions": conditions}
+    scene = HEATED | {"conditions": conditions}
     over = {"conditions.temperature_c": [10.0, 40.0], "heating.contact_diameter_m": [1e-3, 2e-3]}
     result = asperity.sweep(scene, over)
     loop = plain_loop(
@@ -223,14 +211,8 @@ def test_a_band_has_two_variables(folder):
 @pytest.mark.parametrize("cut", [(1, 1, 1), (2, 3, 9), (2, 2, 4), (1, 3, 5)])
 def test_what_fails_leaves_nan_and_its_message(cut, monkeypatch, tmp_path):
     """A point out of range, and a scene that is none; neither takes others with it."""
-    w = np.geomspace(1e1, 1e7, 40)
-    e = asperity.PronySeries(
-        equilibrium_modulus=3e6, moduli=[1e8], relaxation_times=[1e-4]
-    ).modulus(w)
-    lines = [f"{a},{b.real},{b.imag}" for a, b in zip(w, e, strict=True)]
-    header = "angular_frequency_rad_s,storage_modulus_pa,loss_modulus_pa"
-    (tmp_path / "curve.csv").write_text("\n".join([header, *lines]))
-    scene = SCENE | {"rubber": {"master_curve": str(tmp_path / "curve.csv")}}
+    curve = measured(tmp_path / "curve.csv", np.geomspace(1e1, 1e7, 40))
+    scene = SCENE | {"rubber": {"master_curve": curve}}
     over = {
         "surface.q1_per_m": [1e5, 1e4],
         "surface.q0_per_m": [2e3, 2e4, 1e3],
