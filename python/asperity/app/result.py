@@ -204,7 +204,7 @@ class ResultPart(Shows):
             return
         q, density = made
         name = f"Contributions to the hysteresis by wavenumber at {velocity:.3g} m/s"
-        redraw(self._shares, contributions_chart(q, np.ravel(density)), name)
+        redraw(self._shares, contributions_chart(q, density), name)
 
     # --- variants ---
 

@@ -13,8 +13,7 @@ from asperity._core import Error
 from asperity.app.opened import Tables
 from asperity.app.state import State
 from asperity.app.words import in_one_line
-from asperity.friction import friction
-from asperity.scene.mapped import rubber_of_map
+from asperity.base.arguments import known
 from asperity.scene.model import Progress, Scene, SceneFriction
 
 _Made = TypeVar("_Made")
@@ -224,22 +223,6 @@ def with_band(
 
 def contributions(scene: Scene, velocity: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Wavenumbers [1/m], and dmu / d ln q there, at the first pressure and one velocity [m/s]."""
-    result = friction(
-        scene.spectrum,
-        rubber_of_map(scene),
-        pressure=scene.pressure[0],
-        velocity=velocity,
-        correction=scene.correction,
-        adhesion=scene.adhesion,
-        contributions=True,
-        **scene.options,
-        **({} if scene.heating is None else _heat(scene)),
-    )
-    assert result.wavenumber is not None
-    assert result.dmu_dlnq is not None
-    return result.wavenumber, result.dmu_dlnq
-
-
-def _heat(scene: Scene) -> dict[str, Any]:
-    shift = scene.built_rubber.shift
-    return {"temperature": scene.temperature, "shift": shift, "heating": scene.heating}
+    at = scene.pressure[:1], np.array([velocity])
+    result = scene.friction_at(*at, contributions=True)
+    return known(result.wavenumber), np.ravel(known(result.dmu_dlnq))

@@ -224,10 +224,17 @@ class Scene:
             return {}
         return {"temperature": built.temperature, "shift": built.shift}
 
-    def friction_at(self, pressure: Array, velocity: Array, *, gradients: bool = False) -> Friction:
+    def friction_at(
+        self,
+        pressure: Array,
+        velocity: Array,
+        *,
+        gradients: bool = False,
+        contributions: bool = False,
+    ) -> Friction:
         """Friction at points of one's own, in one call; errors name the scene's keys. With slopes
         the rubber is that of the reference, shifted, which tells the slope over T."""
-        compute = self._friction
+        compute = partial(self._friction, contributions=contributions)
         if gradients:
             compute = partial(compute, gradients=True, **self._law)
         with self._in_its_words():
