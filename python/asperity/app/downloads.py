@@ -11,7 +11,7 @@ from pathlib import Path
 
 from asperity.app.state import State
 from asperity.draw.style import drawn_in
-from asperity.fmu.export import export_fmu
+from asperity.fmu.export import fmu_files
 from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap
 from asperity.io.archive import archived
@@ -88,10 +88,7 @@ def map_of(scene: Scene, tell: Tell = _silent) -> FrictionMap:
 
 def fmu_of(made: FrictionMap) -> bytes:
     """The map as a Functional Mock-up Unit."""
-    with tempfile.TemporaryDirectory(prefix="asperity-app-") as aside:
-        path = Path(aside) / "friction.fmu"
-        export_fmu(made, path)
-        return path.read_bytes()
+    return archived(fmu_files(made))
 
 
 def report_of(state: State, tell: Tell = _silent) -> Make:

@@ -77,7 +77,7 @@ def export_fmu(
     choice(fmi, "fmi", ("2.0", "3.0"))
     if points is not None:
         points = whole(points, "points", lowest=1, highest=_MOST_POINTS)
-    write_whole(target, archived(_files(map, name, fmi, points)))
+    write_whole(target, archived(fmu_files(map, name, fmi, points)))
 
 
 def platforms() -> tuple[str, ...]:
@@ -89,9 +89,10 @@ def _binary(platform: str, end: str) -> Path:
     return _FILES / "binaries" / platform / f"friction{end}"
 
 
-def _files(
-    friction_map: FrictionMap, name: str, fmi: str, points: int | None
+def fmu_files(
+    friction_map: FrictionMap, name: str = "friction", fmi: str = "2.0", points: int | None = None
 ) -> Iterator[tuple[str, bytes]]:
+    """What an FMU holds, by names in its archive."""
     listed = variables(friction_map)
     content = friction_map.to_bytes()
     digest = hashlib.sha256(f"{name} {fmi} {points} ".encode() + content).hexdigest()

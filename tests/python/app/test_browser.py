@@ -60,6 +60,7 @@ class Tab:
 
     def settled(self) -> None:
         """Wait until nothing is to follow."""
+        self.page.locator("section[aria-busy=false]").wait_for()
         playwright.expect(self.status).to_have_text(re.compile(r"^largest mu [\d.]+ at \S+ m/s$"))
 
     @property
@@ -146,6 +147,7 @@ def test_from_two_files_to_a_report(
 
     page.get_by_role("switch", name="Heat of sliding").click()
     page.get_by_label("Contact diameter [mm]", exact=True).wait_for()
+    tab.curve.get_by_text("without heat").wait_for()  # the cold curve, which heat follows
     tab.settled()
 
     report = tab.download("Report", tmp_path).read_text()
