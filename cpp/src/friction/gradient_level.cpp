@@ -27,6 +27,7 @@ ContactGridOptions grid_options(const GradientScene& scene, std::size_t number, 
   if (result.tabulated) result.halvings = number;
   if (has_own_rule(scene.model.correction)) result.window = &window;
   const Excitation& waves = scene.waves;
+  result.about_nodes = waves.directions() != nullptr;
   const auto* const table = std::get_if<TabulatedSpectrum>(&scene.spectrum);
   if (table && table->wavenumber().size() >= RoughnessPieces::least_rows) {
     if (!waves.kinks().empty())

@@ -46,7 +46,8 @@ void RingGradient::spread(double by_edges, MatrixXd& by_rings, VectorXd& by_node
   const auto band = static_cast<Index>(grid_.band_size());
   const ContactGrid::Beyond& beyond = grid_.beyond();
   if (!beyond.end) return;
-  const auto first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count) + 1;
+  const auto first = static_cast<Index>(beyond.first),
+             count = static_cast<Index>(beyond.count) + 1 + (beyond.about > 0 ? band : 0);
   Eigen::RowVectorXd by_mean = by_rings.middleRows(first, count).colwise().sum();
   by_rings.middleRows(first, count).setZero();
   const Rings& mean = directions_.mean();

@@ -366,8 +366,8 @@ double FlashMap::hysteresis_density(double wavenumber, double temperature) const
   const AngularIntegrals at = waves_(w, wavenumber);
   const ContactGrid::Place place = grid_.place_of(wavenumber);
   const double root = 1 / (point_.pressure * shift_.shift.p);
-  return edges +
-         mu_factor_ * root * root * place.rate * at.i1 * contact_->stress_at(contact_->g_on(place), wavenumber, at.i2);
+  return edges + mu_factor_ * root * root * place.rate * at.i1 *
+                     contact_->stress_at(contact_->g_on(place), wavenumber, of_edges.i2);
 }
 
 }  // namespace asperity

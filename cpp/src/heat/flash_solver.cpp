@@ -140,6 +140,7 @@ FlashMap& FlashSolver::map_of(std::size_t level) {
                                .macro_wavenumber = scene_.macro_wavenumber,
                                .stops = kinks_,
                                .window = window_ ? &*window_ : nullptr,
+                               .about_nodes = harmonics_of(scene_.spectrum) != nullptr,
                                .held_from = held_from_};
     options.stops.insert(options.stops.end(), stops_.begin(), stops_.end());
     const auto* const table = std::get_if<TabulatedSpectrum>(&scene_.spectrum);

@@ -122,6 +122,22 @@ def test_grooves_along_the_sliding_have_no_friction():
     assert abs(along.lateral) < 1e-10
 
 
+@pytest.mark.parametrize("rtol", [1e-4, 1e-6])
+def test_harmonics_that_turn_from_ring_to_ring_do_not_matter(rtol):
+    """Waves of all rings shape the spots together: the rule knows their mean."""
+    q = 2e3 * np.arange(40, 840)
+    density = 1e-14 * (q / 2e3) ** -3.7
+    turning = 0.4 * (-1.0) ** np.arange(q.size)[:, None]
+    at = {"pressure": 2e5, "velocity": [1e-3, 1e-1, 1e1], "correction": PartialContact()}
+    mu, isotropic = (
+        asperity.friction(
+            TabulatedSpectrum(wavenumber=q, density=density, **kinds), RUBBER, **at, rtol=rtol
+        ).mu
+        for kinds in ({"cosine": turning, "sine": 0 * turning}, {})
+    )
+    np.testing.assert_allclose(mu, isotropic, rtol=5e-5)
+
+
 def test_the_area_is_that_of_the_friction():
     at = {"pressure": [[1e5], [2e5]], "velocity": 1e-2, "direction": [0.6, 0, 1.2]}
     at["correction"] = PartialContact()

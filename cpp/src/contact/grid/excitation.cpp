@@ -111,14 +111,21 @@ std::vector<ModulusFactors> Excitation::factors(const ContactGrid& grid) const {
   return softening_ ? softening_->at_nodes(grid) : std::vector<ModulusFactors>{};
 }
 
+void soften_square(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i2) {
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    const auto [f, g] = factors[i];
+    i2[i] = f * f * i2[i] + (g - f) * (g + f) * loss_part[i];
+  }
+}
+
 void soften(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i1,
             std::span<double> i2, std::span<double> i1_outside) {
   for (std::size_t i = 0; i < factors.size(); ++i) {
-    const auto [f, g] = factors[i];
+    const double g = factors[i].loss;
     i1[i] *= g;
-    i2[i] = f * f * i2[i] + (g - f) * (g + f) * loss_part[i];
     if (!i1_outside.empty()) i1_outside[i] *= g;
   }
+  soften_square(factors, loss_part, i2);
 }
 
 bool Excitation::operator()(std::span<const double> w, std::span<const ModulusFactors> factors, std::span<double> i1,
@@ -135,6 +142,14 @@ bool Excitation::operator()(std::span<const double> w, std::span<const ModulusFa
     std::ranges::copy(i1, directed.mean_i1.begin());
     std::ranges::copy(i2, directed.mean_i2.begin());
     soften(factors, of_loss, directed.mean_i1, directed.mean_i2, {});
+  }
+  if (!directed.about.empty()) {
+    std::ranges::copy(i2, directed.about.begin());
+    add_directions(directions_->mean(), {rows, n, {}, square}, directed.about);
+    std::vector<double> about_loss(of_loss.begin(), of_loss.begin() + static_cast<std::ptrdiff_t>(factors.size()));
+    add_directions(directions_->mean(), {factors.empty() ? 0 : rows, n, {}, std::span(of_loss).subspan(factors.size())},
+                   about_loss);
+    soften_square(factors, about_loss, directed.about);
   }
   if (rows > 0) {
     const bool outside = any_outside && !i1_outside.empty();

@@ -41,16 +41,16 @@ class Softening {
   std::vector<double> kinks_;
 };
 
-/// The waves that one asks of: those of the roughness, or what the edges of contacts carry beyond its end, which have
-/// the directions of all roughness.
+/// The waves that one asks of: those of the roughness, or what shapes the spots of contacts and what their edges carry
+/// beyond its end, which have the directions of all roughness.
 enum class Waves { of_roughness, of_edges };
 
-/// What rings ask for beside I1 and I2: their harmonics, how many of them, and room for the force across and for what
-/// I1 and I2 would be in the mean over directions, or none.
+/// What rings ask for beside I1 and I2: their harmonics, how many of them, and room for the force across, for what
+/// I1 and I2 would be in the mean over directions, and for I2 of the directions of all roughness, or none.
 struct Directed {
   const Rings* rings = nullptr;
   std::size_t harmonics = 0;
-  std::span<double> across = {}, mean_i1 = {}, mean_i2 = {};
+  std::span<double> across = {}, mean_i1 = {}, mean_i2 = {}, about = {};
 };
 
 /// I1 and I2 at frequencies, as waves feel them: of the rubber, bit by bit; with directions their sums over the ring
@@ -96,7 +96,9 @@ class Excitation {
   std::optional<Directions> directions_;
 };
 
-/// I1 and I2 of the small strain become those with factors; `loss_part` is I2''. `i1_outside` may be empty.
+/// I2 of the small strain becomes that with factors; `loss_part` is I2''.
+void soften_square(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i2);
+/// The same of I1 and I2; `i1_outside` may be empty.
 void soften(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i1,
             std::span<double> i2, std::span<double> i1_outside);
 

@@ -310,6 +310,10 @@ void ContactGrid::lay_edges(const std::optional<double>& held_from) {
   beyond_.count = weight.size();
   beyond_.weight = Eigen::Map<const Eigen::VectorXd>(weight.data(), static_cast<Eigen::Index>(weight.size()));
   wavenumber_.push_back(q_e);
+  if (options_.about_nodes) {
+    beyond_.about = wavenumber_.size();
+    for (std::size_t j = 0; j < beyond_.first; ++j) wavenumber_.push_back(wavenumber_[j]);
+  }
   highest_ = std::fmax(highest_, std::log(end));
   macro_weights_.resize(wavenumber_.size());
   macro_weight_ = Eigen::Map<const Eigen::VectorXd>(macro_weights_.data(), static_cast<Eigen::Index>(size()));

@@ -26,6 +26,7 @@ struct ContactGridOptions {
   bool kinks_at_stops = false;                     // in the modulus
   const RoughnessWindow* window = nullptr;         // with PartialContact, which must outlive the grid
   bool edge_nodes = true;                          // for the stress that it carries beyond the end of the roughness
+  bool about_nodes = false;                        // where rings have directions; with those of edges
   std::optional<double> held_from = std::nullopt;  // where beyond it the modulus is not known any more [1/m]
   const RoughnessPieces* pieces = nullptr;         // instead of panels
   const TabulatedSpectrum* rings = nullptr;        // with pieces, whose harmonics the nodes of q_m have
@@ -103,10 +104,12 @@ class ContactGrid {
   /// roughness ends, inside of the band.
   struct Beyond {
     std::size_t first = 0, count = 0;  // of the edges' nodes; the one behind them is q_e itself
-    Eigen::VectorXd weight;            // dln x x^-3 of them, x = q / q_e
-    std::vector<double> window;        // mean of c about each node of the band
-    std::optional<RoughnessEnd> end;   // with PartialContact
-    std::vector<double> ends;          // of panels, from q_e on [1/m]
+    /// Of the band's nodes once more, with the directions of all roughness; 0, their own, where there are none.
+    std::size_t about = 0;
+    Eigen::VectorXd weight;           // dln x x^-3 of them, x = q / q_e
+    std::vector<double> window;       // mean of c about each node of the band
+    std::optional<RoughnessEnd> end;  // with PartialContact
+    std::vector<double> ends;         // of panels, from q_e on [1/m]
     std::vector<std::size_t> panel_nodes;
     const RoughnessWindow* roughness = nullptr;
     double g_factor = 0;

@@ -66,6 +66,8 @@ void PanelSlopes::operator()(std::span<const double> at_nodes, std::span<const d
     for (std::size_t j = 0; j < rule.n; ++j) slope[first + j] /= half;
     first += rule.n;
   }
+  if (beyond.about > 0)
+    std::copy_n(slope.begin(), grid_.band_size(), slope.begin() + static_cast<std::ptrdiff_t>(beyond.about));
   slope[first] = (beside.back() - beside[beside.size() - 2]) / (2 * step);
 }
 

@@ -34,13 +34,24 @@ void LevelSolver::add_directions_of_pieces(Level& level, std::span<double> of_lo
   if (outside)  // as if it had the directions of all
     for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] /= i1[i];
   add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, i1, level.across);
-  add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, {level.i2.data(), n});
+  const HarmonicRows squares{rows, stride, {}, square_at_nodes_};
+  if (!level.about.empty()) {
+    std::copy_n(level.i2.begin(), n, level.about.begin());
+    add_directions(waves_.directions()->mean(), squares, {level.about.data(), n});
+  }
+  add_directions(level.rings, squares, {level.i2.data(), n});
   if (outside)
     for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] *= i1[i];
   for (std::size_t m = 0; m < rows && !of_loss.empty(); ++m)
     cells.at_nodes(&of_loss_[(m + 1) * points], &of_loss_[(m + 1) * points], &square_at_nodes_[m * stride],
                    &square_at_nodes_[m * stride]);
-  if (!of_loss.empty()) add_directions(level.rings, {rows, stride, {}, square_at_nodes_}, of_loss.first(n));
+  if (of_loss.empty()) return;
+  if (!level.about.empty()) {
+    std::vector<double> about_loss(of_loss.begin(), of_loss.begin() + static_cast<std::ptrdiff_t>(n));
+    add_directions(waves_.directions()->mean(), squares, about_loss);
+    soften_square(level.factors, about_loss, level.about);
+  }
+  add_directions(level.rings, squares, of_loss.first(n));
 }
 
 void LevelSolver::check_directions(const Level& level) const {

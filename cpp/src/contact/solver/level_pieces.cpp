@@ -55,6 +55,7 @@ void LevelSolver::take_moduli_of_pieces(Level& level, bool first) {
     soften(level.factors, at_nodes_, level.mean_i1, level.mean_i2, {});
   }
   if (rows > 0) add_directions_of_pieces(level, level.factors.empty() ? std::span<double>() : at_nodes_);
+  if (rows == 0) level.about.clear();
   if (level.factors.empty()) return;
   soften(level.factors, at_nodes_, level.i1, level.i2,
          first && any_outside_ ? std::span<double>(level.i1_outside) : std::span<double>());

@@ -150,6 +150,7 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   const std::size_t n = grid.size();
   for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
   if (rings_of_) level.across.assign(n + RoughnessCells::excess, 0.0);
+  if (rings_of_ && window_) level.about.resize(n + RoughnessCells::excess);
   if (rings_of_ && grid.pieces() && kinks())
     for (auto* const row : {&level.mean_i1, &level.mean_i2}) row->resize(n);
   if (grid.pieces() && analytic_) {
@@ -164,8 +165,8 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   const bool asked = analytic_ ? first && known_in_part_ : first || any_outside_;
   if (asked) level.i1_outside.resize(n);
   const Excitation& waves = analytic_waves_ ? *analytic_waves_ : waves_;
-  const Directed directed{&level.rings, needed_.count, std::span(level.across).first(rings_of_ ? n : 0), level.mean_i1,
-                          level.mean_i2};
+  const Directed directed{&level.rings,  needed_.count, std::span(level.across).first(rings_of_ ? n : 0),
+                          level.mean_i1, level.mean_i2, std::span(level.about).first(level.about.empty() ? 0 : n)};
   const bool any = asked && waves_(level.frequency, level.factors, i1, i2, level.i1_outside, directed);
   if (first) any_outside_ = any;
   if (analytic_ || !asked) (void)waves(level.frequency, level.factors, i1, i2, {}, directed);
@@ -217,13 +218,16 @@ LevelSolver::Level& LevelSolver::at_velocity(Levels& levels, std::size_t number)
     from_next_->at_nodes(next.i1.data(), next.i2.data(), level.i1.data(), level.i2.data());
     if (rings_of_) {
       level.across.resize(n + RoughnessCells::excess);
-      from_next_->at_nodes(next.across.data(), next.across.data(), level.across.data(), level.across.data());
+      level.about.resize(next.about.empty() ? 0 : n + RoughnessCells::excess);
+      const std::vector<double>& second = next.about.empty() ? next.across : next.about;
+      std::vector<double>& to_second = next.about.empty() ? level.across : level.about;
+      from_next_->at_nodes(next.across.data(), second.data(), level.across.data(), to_second.data());
     }
   } else {
     take_moduli(level, number == (kinks() || level.grid->pieces() ? 0 : 1));
   }
   check_directions(level);
-  level.theory->take({{level.i1.data(), n}, {level.i2.data(), n}});
+  level.theory->take({{level.i1.data(), n}, {level.i2.data(), n}, level.about});
   if (window_ && level.grid->pieces()) level.theory->take_edges(edges_);
   return level;
 }
@@ -409,7 +413,7 @@ double LevelSolver::g(double wavenumber) const {
 }
 
 double LevelSolver::stress(double wavenumber) const {
-  return solved_ ? solved_->theory->stress_at(g(wavenumber), wavenumber, modulus(wavenumber).i2) : 1;
+  return solved_ ? solved_->theory->stress_at(g(wavenumber), wavenumber, modulus(wavenumber, Waves::of_edges).i2) : 1;
 }
 
 double LevelSolver::hysteresis_density(double wavenumber) const {
@@ -420,7 +424,7 @@ double LevelSolver::hysteresis_density(double wavenumber) const {
   if (wavenumber > surface_.back().b) return edges;
   const AngularIntegrals at = modulus(wavenumber);
   const double rate = solved_->grid->place_of(wavenumber).rate;
-  return edges + mu_factor_ * rate * at.i1 * solved_->theory->stress_at(g(wavenumber), wavenumber, at.i2);
+  return edges + mu_factor_ * rate * at.i1 * solved_->theory->stress_at(g(wavenumber), wavenumber, of_edges.i2);
 }
 
 std::vector<ContactGrid::PanelSum> LevelSolver::shares() const {

@@ -65,6 +65,7 @@ class LevelSolver {
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
     std::vector<double> across;            // of rings, as i1
+    std::vector<double> about;             // I2 with the directions of all roughness, for PartialContact
     std::vector<double> mean_i1, mean_i2;  // over directions, where the modulus has kinks
     std::vector<double> i1_outside;        // of unmeasured frequencies; of a Prony series on one level alone
   };

@@ -97,7 +97,8 @@ void PartialContactTheory::take(const NodeModulus& modulus) {
   const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
   if (!grid_.pieces()) g_ = g_.cwiseMax(1e-300);
   weight_ = grid_.weight().cwiseProduct(i2_.head(n));
-  steepness_ = Eigen::Map<const VectorXd>(beyond.window.data(), n).cwiseProduct(i2_.head(n));
+  const double* const about = modulus.about.empty() ? i2_.data() + beyond.about : modulus.about.data();
+  steepness_ = Eigen::Map<const VectorXd>(beyond.window.data(), n).cwiseProduct(Eigen::Map<const VectorXd>(about, n));
   stress_.resize(n);
   end_.g = unit_g();
   end_.window = beyond.end->window;
@@ -184,7 +185,7 @@ PartialContactTheory::RuleSlopes PartialContactTheory::rule_slopes() const {
 void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlopes& result) {
   const ContactGrid::Beyond& beyond = grid_.beyond();
   const Index n = g_.size(), first = static_cast<Index>(beyond.first), count = static_cast<Index>(beyond.count);
-  const Index directions = along.i2.cols();
+  const Index directions = along.i2.cols(), about = static_cast<Index>(beyond.about);
   result.part.setZero(part_.size(), directions);
   result.area = result.macro = RowVectorXd::Zero(directions);
   result.rule = along.log_kappa.value_or(result.area);
@@ -212,7 +213,7 @@ void PartialContactTheory::differentiate(const ModulusSlopes& along, ContactSlop
       log_stress.row(j) = (slope * (1 - 2 * passed) / g) * slopes.node.row(j);
     else
       log_stress.row(j).setZero();
-    log_stress.row(j) -= passed * (of.obstacle_by_g * log_g1 + along.i2.row(j) + along.scale);
+    log_stress.row(j) -= passed * (of.obstacle_by_g * log_g1 + along.i2.row(about + j) + along.scale);
     const double part = ratio_[j] > 0 ? part_[j] / ratio_[j] : 0;  // R dG
     variance += part * (along.i2.row(j) + along.scale + log_stress.row(j));
     variance_by_kappa += part * by_kappa[j];
@@ -299,7 +300,8 @@ void PartialContactTheory::gradient(const ContactNumber& number, ContactGradient
   const VectorXd through_g = back_through_g(by_node, by_edge);
   constexpr double tail = partial_contact::tail_excess;
   result.weight.head(n) = by_stress + through_g;
-  result.i2.head(n) = result.weight.head(n) + result.window;
+  result.i2.head(n) = result.weight.head(n);
+  result.i2.segment(static_cast<Index>(beyond.about), n) += result.window;
   result.i2.segment(first, count) = (1 + tail) * by_tail;
   result.i2[end_node()] -= tail * by_edges + off;
   result.scale = by_part.sum() - tied + by_obstacle - off + through_g.sum();

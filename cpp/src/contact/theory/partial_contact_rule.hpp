@@ -8,9 +8,9 @@
 //   T(x) = edges A1 (1 - A1^(1/4)) K I2(v q_e) w_e max(1, last / rho) (I2(v q) / I2(v q_e))^1.25 x^-3, that of
 //     the edges of contacts, x = q / q_e from 1 to tail_end. Where roughness has directions spots are long: T is times
 //     (h_r / h_c)^(crossed cos^2), the rms slopes along the ridges and across them, and the angle of sliding to the way
-//     across them: who slides along the ridges crosses as many edges as on isotropic roughness. T has the harmonics of
-//     all roughness, which shapes the spots. Light contacts are less like ridges than the roughness is: the force
-//     across has A^steering of R dG.
+//     across them: who slides along the ridges crosses as many edges as on isotropic roughness. T and g' have the
+//     harmonics of all roughness, which shapes the spots. Light contacts are less like ridges than the roughness is:
+//     the force across has A^steering of R dG.
 // kappa is the one at which the stress has the variance of Persson's pressure distribution, F(g) = int_0^g A dg, but
 // for a factor near 1:
 //   int R dG + int T d ln x = F(kappa G(q1)) (1 + (spread A1 + stiff max(0, 1 - 1 / rho)^4) (1 - A1^8)).

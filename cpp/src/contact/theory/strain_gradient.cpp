@@ -26,7 +26,8 @@ StrainGradient::StrainGradient(const StrainFactors& factors, std::span<const Seg
     const auto segment = std::ranges::lower_bound(surface, q, {}, &Segment::b);
     const bool inside = q < softening.end() && segment != surface.end() && q >= segment->a;
     const double slope = factors.strain_per_slope() * q * q / strain;
-    at_end_.push_back(inside ? std::numbers::pi * slope * slope * segment->density(q) : 0);
+    const bool of_edges = j <= grid.beyond().first + grid.beyond().count;
+    at_end_.push_back(inside && of_edges ? std::numbers::pi * slope * slope * segment->density(q) : 0);
     beside_.push_back(inside ? below_(q, share * share) : RoughnessBelow::Reach{grid.cells().size(), {}});
   }
 }

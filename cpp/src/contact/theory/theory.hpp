@@ -16,9 +16,10 @@
 
 namespace asperity {
 
-/// I1 [Pa] and I2 [Pa^2] of the rubber at each node.
+/// I1 [Pa] and I2 [Pa^2] of the rubber at each node; `about` is I2 with the directions of all roughness, where those of
+/// a node are its own.
 struct NodeModulus {
-  std::span<const double> i1, i2;
+  std::span<const double> i1, i2, about = {};
 };
 
 /// Slopes of the logarithms of I2 and of I1 / I2 along directions in which the temperature changes, a column each, and
