@@ -66,20 +66,21 @@ void LevelSolver::check_directions(const Level& level) const {
                          "fewer of them, or wider rings");
 }
 
-double LevelSolver::across(const Level& level, const ContactSums& sums, const VectorXd& steering) const {
+double LevelSolver::across(Level& level, const ContactSums& sums, const VectorXd& steering) const {
+  level.sideways.resize(0);
   if (!rings_of_ || !(sums.friction > 0)) return 0;
   const ContactGrid& grid = *level.grid;
   const VectorXd &stress = level.theory->stress(), &part = level.theory->part();
   const bool by_stress = window_ && grid.pieces();
   const auto n = static_cast<Index>(by_stress ? grid.band_size() : grid.size());
   const Eigen::Map<const Eigen::ArrayXd> lateral(level.across.data(), n), i1(level.i1.data(), n);
-  const auto steered = [&](const auto& terms) {
-    const Index band = steering.size();
-    return (terms.head(band) * steering.array()).sum() + terms.tail(n - band).sum();
-  };
-  if (!by_stress) return steered((i1 != 0).select(part.head(n).array() * lateral / i1, 0)) / scale_;
-  const double edges = sums.edges * grid.beyond().end->window * edges_.across;
-  return edges + steered(grid.weight().array() * stress.array() * lateral);
+  if (by_stress)
+    level.sideways = grid.weight().array() * stress.array() * lateral;
+  else
+    level.sideways = (i1 != 0).select(part.head(n).array() * lateral / i1, 0) / scale_;
+  level.sideways.head(steering.size()).array() *= steering.array();
+  const double edges = by_stress ? sums.edges * grid.beyond().end->window * edges_.across : 0;
+  return edges + level.sideways.sum();
 }
 
 }  // namespace asperity

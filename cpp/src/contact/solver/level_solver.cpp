@@ -255,14 +255,14 @@ void LevelSolver::take_common_ends(Level& fine, const Level& coarse) {
   }
 }
 
-/// How far two levels are apart at most in the part of mu_H up to ends of pieces that both have, at the load: errors
-/// that cancel in the whole do not all the way.
-double LevelSolver::apart(const Level& coarse, const Level& fine) {
-  const VectorXd &of_coarse = coarse.theory->part(), &of_fine = fine.theory->part();
+/// How far two levels are apart at most in a sum over nodes up to ends of pieces that both have: errors that cancel in
+/// the whole do not all the way.
+double LevelSolver::apart(const VectorXd& of_coarse, const VectorXd& of_fine,
+                          const std::vector<std::array<Index, 2>>& common_ends) {
   if (of_coarse.size() == 0 || of_fine.size() == 0) return 0;
   double most = 0, off = 0;
   Index i = 0, k = 0;
-  for (const auto& [end, fine_end] : fine.common_ends) {
+  for (const auto& [end, fine_end] : common_ends) {
     off += of_fine.segment(k, fine_end - k).sum() - of_coarse.segment(i, end - i).sum();
     i = end;
     k = fine_end;
@@ -332,7 +332,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift, bool a
   const double root = 1 / (pressure * shift);
   scale_ = root * root;
   mu_factor_ = 4 * pressure / stiffening_ * scale_;
-  const Level* coarse = &at_velocity(levels, 0);
+  Level* coarse = &at_velocity(levels, 0);
   g_ = coarse->theory->unit_g() * scale_;
   sums_ = {};
   hysteresis_ = {};
@@ -353,9 +353,10 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift, bool a
   double change_before = 0;
   for (std::size_t number = 1; number < levels.size(); ++number) {
     if (number > 1) heed();
-    const Level& level = at_velocity(levels, number);
+    Level& level = at_velocity(levels, number);
     const ContactSums now = solve_at(level, before.kappa);
-    const double running = apart(*coarse, level), whole = now.friction * scale_;
+    const double running = apart(coarse->theory->part(), level.theory->part(), level.common_ends),
+                 whole = now.friction * scale_;
     const double change =
         std::max({difference(now.friction, before.friction), difference(now.share, before.share),
                   difference(level.theory->unit_g(), coarse->theory->unit_g()), difference(now.kappa, before.kappa),
@@ -364,8 +365,9 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift, bool a
     const double lateral = across(level, now);
     double error = (knots && !by_pieces && !window_ ? of_change_at_kinks : of_change) * change;
     if (rings_of_) {
-      const double of_lateral = now.friction > 0 ? std::fabs(lateral - across_before) / now.friction : 0;
-      error = of_change_at_kinks * std::fmax(change, of_lateral) + needed_.rest;
+      const double off =
+          std::fmax(apart(coarse->sideways, level.sideways, level.common_ends), std::fabs(lateral - across_before));
+      error = of_change_at_kinks * std::fmax(change, now.friction > 0 ? off / now.friction : 0) + needed_.rest;
       across_before = lateral;
     }
     if (!by_pieces) error = std::fmax(error, of_change_before * std::exchange(change_before, change));
@@ -375,7 +377,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift, bool a
     }
     if (!analytic_ || (number == 1 && !by_pieces && !kinks())) outside = outside_share(level, now);
     before = now;
-    coarse = solved_ = &level;
+    solved_ = coarse = &level;
     hysteresis_.value = mu_factor_ * now.friction;
     error_ = error;
     if (!(error <= 0.85 * model_.rtol)) continue;

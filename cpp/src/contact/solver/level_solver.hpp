@@ -65,6 +65,7 @@ class LevelSolver {
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
     std::vector<double> across;            // of rings, as i1
+    Eigen::VectorXd sideways;              // parts of the force across, as the sum of friction
     std::vector<double> about;             // I2 with the directions of all roughness, for PartialContact
     std::vector<double> mean_i1, mean_i2;  // over directions, where the modulus has kinks
     std::vector<double> i1_outside;        // of unmeasured frequencies; of a Prony series on one level alone
@@ -85,11 +86,12 @@ class LevelSolver {
   void check_directions(const Level& level) const;
   static void take_common_ends(Level& fine, const Level& coarse);
   [[nodiscard]] static double mean_place(const Level& level);
-  [[nodiscard]] static double apart(const Level& coarse, const Level& fine);
+  [[nodiscard]] static double apart(const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine,
+                                    const std::vector<std::array<Eigen::Index, 2>>& common_ends);
   [[nodiscard]] double beside_knots(const Level& level, const ContactSums& sums);
   [[nodiscard]] double outside_share(const Level& level, const ContactSums& sums) const;
   /// The force across of a level, as the sum of friction; with all directions of the roughness unless told how many.
-  [[nodiscard]] double across(const Level& level, const ContactSums& sums, const Eigen::VectorXd& steering = {}) const;
+  [[nodiscard]] double across(Level& level, const ContactSums& sums, const Eigen::VectorXd& steering = {}) const;
   [[nodiscard]] AngularIntegrals modulus(double wavenumber, Waves waves = Waves::of_roughness) const;
 
   const Spectrum& spectrum_;
