@@ -35,9 +35,7 @@ constexpr std::size_t levels_before_front = 3;
 constexpr std::size_t finest = 6;           // level of nodes of panels: more than doubles hold
 constexpr std::size_t finest_at_knots = 3;  // further levels halve panels
 constexpr std::size_t most_levels = 10;
-/// Tables of fewer rows are as quick on panels, and lesser tolerances not reached on pieces.
-constexpr std::size_t least_rows = 8;
-constexpr double least_rtol = 1e-7;
+constexpr double least_rtol = 1e-7;  // lesser ones are not reached on pieces
 
 double difference(double a, double b) { return b == 0 ? 0 : std::fabs(a / b - 1); }
 
@@ -61,7 +59,7 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surf
     analytic_waves_.emplace(*analytic_, waves);
   }
   const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
-  const bool many_rows = table && table->wavenumber().size() >= least_rows;
+  const bool many_rows = table && table->wavenumber().size() >= RoughnessPieces::least_rows;
   if ((many_rows || !analytic_) && model.rtol >= least_rtol && !options.parts)
     pieces_.resize(rings_of_ || waves.softening() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels);
   panels_.resize(most_levels);
