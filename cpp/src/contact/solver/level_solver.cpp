@@ -24,13 +24,14 @@ constexpr double for_edges = 0.02;  // of the tolerance
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
 constexpr double of_change = 0.75, of_rest = 2;
-constexpr double of_change_at_kinks = 1;  // which scatter, as directions do from ring to ring
+constexpr double of_change_with_rings = 1;   // which scatter
+constexpr double of_change_at_fronts = 1.5;  // beside which levels agree by chance
 /// Two levels may agree by chance, so that of the tolerance something is taken at least: on pieces one point in a
 /// hundred was off by half of it where they did; on panels fronts make them agree by chance, which PartialContact does
 /// not have (tests/stability/random_partial_tables.py, random_scenes.py).
 constexpr double least_on_pieces = 0.75, least_on_panels = 0.5, least_without_front = 1.0 / 30;
 /// As one level more is two digits more, one that changes much less than that does so by chance.
-constexpr double of_change_before = 1.0 / 128;
+constexpr double of_change_before = 1.0 / 64;
 constexpr std::size_t levels_before_front = 3;
 constexpr std::size_t finest = 6;           // level of nodes of panels: more than doubles hold
 constexpr std::size_t finest_at_knots = 3;  // further levels halve panels
@@ -361,11 +362,11 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift, bool a
                   std::fabs(now.slope - before.slope), std::fabs(now.friction_slope - before.friction_slope),
                   by_pieces ? 0 : std::fabs(mean_place(level) - mean_place(*coarse)), whole > 0 ? running / whole : 0});
     const double lateral = across(level, now);
-    double error = (knots && !by_pieces && !window_ ? of_change_at_kinks : of_change) * change;
+    double error = (by_pieces || window_ ? of_change : of_change_at_fronts) * change;
     if (rings_of_) {
       const double off =
           std::fmax(apart(coarse->sideways, level.sideways, level.common_ends), std::fabs(lateral - across_before));
-      error = of_change_at_kinks * std::fmax(change, now.friction > 0 ? off / now.friction : 0) + needed_.rest;
+      error = of_change_with_rings * std::fmax(change, now.friction > 0 ? off / now.friction : 0) + needed_.rest;
       across_before = lateral;
     }
     if (!by_pieces) error = std::fmax(error, of_change_before * std::exchange(change_before, change));
