@@ -11,6 +11,7 @@
 #include "contact/conditions.hpp"
 #include "contact/correction.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
+#include "numerics/roots.hpp"
 #include "spectrum/table_surface.hpp"
 
 namespace asperity {
@@ -116,21 +117,17 @@ void LevelSolver::begin_panels() {
 
 /// Further stops where the contact breaks up, decade by decade of G on panels that G rises steeply on, for one point.
 void LevelSolver::end_panels_at_front() {
-  constexpr double steep = 100, lowest = 0.01;
+  constexpr double steep = 100, lowest = 0.01, shortest = 1e-18;
   std::vector<double> ends;
-  double before = 0, lower = surface_.front().a;
+  double before = 0, lower = solved_->grid->foot();
   for (const ContactGrid::Cell& cell : solved_->grid->cells()) {
-    const double last = g(cell.end);
+    const double last = g(cell.end), length = cell.end - lower;
     if (last > lowest && last > steep * before)
       for (double at = std::fmax(lowest, std::pow(10, std::ceil(std::log10(std::fmax(before, lowest))))); at < last;
-           at *= 10) {
-        double from = 0, to = cell.end - lower;
-        for (int i = 0; i < 50; ++i) {
-          const double middle = from > 0 && to > 2 * from ? std::sqrt(from * to) : (from + to) / (from > 0 ? 2 : 64);
-          (g(lower + middle) < at ? from : to) = middle;
-        }
-        ends.push_back(lower + to);
-      }
+           at *= 10)
+        ends.push_back(lower +
+                       length * std::exp(bracketed_root([&](double x) { return g(lower + length * std::exp(x)) - at; },
+                                                        std::log(shortest), 0, 0.01)));
     before = last;
     lower = cell.end;
   }
