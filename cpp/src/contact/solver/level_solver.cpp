@@ -276,7 +276,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift, bool a
   if (g_ == 0) return !by_pieces;
   solved_ = coarse;
   check_g(g_, pressure);
-  const bool friction = by_pieces || options_.hysteresis;
+  const bool friction = by_pieces || window_ || options_.hysteresis;  // an area of PartialContact asks for its kappa
   const auto solve_at = [&](const Level& level, double kappa) {
     return friction ? level.theory->solve(scale_, model_.rtol, kappa) : ContactSums{};
   };
