@@ -140,12 +140,6 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
     throw NotConverged(argument("mu") + " = " + value(mu) + " with error " + show(at.error_estimate) + " where " +
                        argument("rtol") + " = " + show(scene_.model.rtol) + " was asked for");
-  // coefficients do not fall evenly at the knots of a table, and the last ones may be small by chance: one random
-  // table in a thousand was above its estimate where that was below a hundredth of the tolerance, none elsewhere; with
-  // PartialContact one point in 50,000 was off by a third of it where two levels of panels agreed
-  const double least = partial_ ? 0.3 : 0.01;
-  if (tabulated)
-    at.error_estimate = std::fmin(at.error_estimate + least * scene_.model.rtol * mu, scene_.model.rtol * mu);
   return at;
 }
 

@@ -172,7 +172,7 @@ void PerssonTheory::evaluate(double scale, std::optional<double> /*log_kappa*/) 
   macro_ = p_of(scale * g_macro_, form_);
 }
 
-/// What a panel's rule on P S dG is off the rise of F, times what R changes between two nodes there: by parts,
+/// What a panel's rule on P S dG is off the rise of F, times half of what R changes between two nodes there: by parts,
 /// friction has F at all ends, and what the rule misses of a front is no farther from a node.
 double PerssonTheory::front_misfit() {
   if (grid_.pieces()) return 0;
@@ -195,7 +195,7 @@ double PerssonTheory::front_misfit() {
     const double rule = (grid_.weight().segment(first, count).array() * i2_.segment(first, count).array() *
                          stress_.segment(first, count).array())
                             .sum();
-    result += std::fabs((f_edge_[c + 1] - f_edge_[c]) / scale_ - rule) * apart;
+    result += std::fabs((f_edge_[c + 1] - f_edge_[c]) / scale_ - rule) * apart / 2;
   }
   return result;
 }
