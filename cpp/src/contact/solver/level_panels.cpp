@@ -4,9 +4,10 @@
 
 #include "contact/solver/level_solver.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
-#include "numerics/roots.hpp"
 
 namespace asperity {
+
+using Eigen::Index;
 
 void LevelSolver::begin_panels() {
   if (velocity_ == panels_velocity_) return;
@@ -25,7 +26,6 @@ void LevelSolver::begin_panels() {
   std::ranges::sort(stops);
   if (stops != stops_) {
     for (Level& level : panels_) level = {};
-    from_next_.reset();
     stops_ = std::move(stops);
   }
   if (!window_ || !known_) return;
@@ -33,37 +33,44 @@ void LevelSolver::begin_panels() {
   const auto held_from = from > window_->end() && from < last ? std::optional(from) : std::nullopt;
   if (held_from == held_from_) return;
   held_from_ = held_from;
-  from_next_.reset();
   for (Level& level : panels_)
     if (level.grid) {
+      level.from_next.reset();
       level.grid->lay_edges(held_from_);
       level.factors = waves_.factors(*level.grid);
       level.rings = waves_.rings(*level.grid);
     }
 }
 
-/// Further stops where the contact breaks up, decade by decade of G on panels that G rises steeply on, for one point.
-void LevelSolver::end_panels_at_front() {
-  constexpr double steep = 100, lowest = 0.01, shortest = 1e-18;
-  std::vector<double> ends;
-  double before = 0, lower = solved_->grid->foot();
-  for (const ContactGrid::Cell& cell : solved_->grid->cells()) {
-    const double last = g(cell.end), length = cell.end - lower;
-    if (last > lowest && last > steep * before)
-      for (double at = std::fmax(lowest, std::pow(10, std::ceil(std::log10(std::fmax(before, lowest))))); at < last;
-           at *= 10)
-        ends.push_back(lower +
-                       length * std::exp(bracketed_root([&](double x) { return g(lower + length * std::exp(x)) - at; },
-                                                        std::log(shortest), 0, 0.01)));
+/// Panels of one point that also stop where the contact breaks up, about decade by decade of G on those that G rises
+/// steeply on: between nodes by a power of the distance from where they begin.
+void LevelSolver::lay_out_front() {
+  constexpr double steep = 100, lowest = 0.01;
+  front_stops_ = stops_;
+  const ContactGrid& grid = *solved_->grid;
+  double before = 0, lower = grid.foot();
+  for (const ContactGrid::Cell& cell : grid.cells()) {
+    const auto g_at = [&](std::size_t i) { return scale_ * solved_->theory->node_g()[static_cast<Index>(i)]; };
+    const std::size_t end = cell.first + cell.count;
+    const double last = g_at(end - 1);
+    if (last > lowest && last > steep * before) {
+      double at = std::fmax(lowest, std::pow(10, std::ceil(std::log10(std::fmax(before, lowest)))));
+      double from = 0, rise_from = 0;
+      for (std::size_t i = cell.first; i < end; ++i) {
+        const double to = grid.wavenumber()[i] - lower, rise_to = g_at(i) - before;
+        if (!(to > from && rise_to > rise_from)) continue;
+        const double power = from > 0 ? std::log(to / from) / std::log(rise_to / rise_from) : 1;
+        for (; at < g_at(i); at *= 10)
+          if (at > before + rise_from) front_stops_.push_back(lower + to * std::pow((at - before) / rise_to, power));
+        from = to;
+        rise_from = rise_to;
+      }
+    }
     before = last;
     lower = cell.end;
   }
-  if (ends.empty()) return;
-  stops_.insert(stops_.end(), ends.begin(), ends.end());
-  std::ranges::sort(stops_);
-  for (Level& level : panels_) level = {};
-  from_next_.reset();
-  panels_velocity_ = 0;  // the next point lays panels out anew
+  std::ranges::sort(front_stops_);
+  for (Level& level : front_) level = {};
 }
 
 }  // namespace asperity

@@ -65,7 +65,7 @@ LevelSolver::LevelSolver(const Spectrum& spectrum, std::span<const Segment> surf
   const bool many_rows = table && table->wavenumber().size() >= RoughnessPieces::least_rows;
   if ((many_rows || !analytic_) && model.rtol >= least_rtol && !options.parts)
     pieces_.resize(rings_of_ || waves.softening() ? RoughnessPieces::levels_with_rows : RoughnessPieces::levels);
-  panels_.resize(most_levels);
+  for (Levels* const levels : {&panels_, &front_}) levels->resize(most_levels);
   constexpr double digits_a_level = 2;
   const double wanted = -std::log10(model.rtol) - 1 - ContactGrid::first_digits;
   while (first_level_ + 2 < finest + 1 && digits_a_level * static_cast<double>(first_level_ + 1) < wanted)
@@ -127,7 +127,7 @@ void LevelSolver::lay_out(Levels& levels, std::size_t number) {
     const std::size_t of_nodes = knots ? finest_at_knots : finest;
     options.level = std::min(first_level_ + number, of_nodes);
     options.halvings = first_level_ + number - options.level;
-    options.stops = stops_;
+    options.stops = &levels == &front_ ? front_stops_ : stops_;
     options.kinks_at_stops = knots;
     if (window_) options.window = &*window_;
     options.held_from = held_from_;
@@ -151,15 +151,15 @@ LevelSolver::Level& LevelSolver::at_velocity(Levels& levels, std::size_t number)
   const std::size_t n = level.grid->size();
   if (!kinks() && !level.grid->pieces() && number == 0) {  // at hand from the next level, which every point needs
     const Level& next = at_velocity(levels, 1);
-    if (!from_next_) from_next_ = cells_between(*next.grid, *level.grid);
+    if (!level.from_next) level.from_next = cells_between(*next.grid, *level.grid);
     for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
-    from_next_->at_nodes(next.i1.data(), next.i2.data(), level.i1.data(), level.i2.data());
+    level.from_next->at_nodes(next.i1.data(), next.i2.data(), level.i1.data(), level.i2.data());
     if (rings_of_) {
       level.across.resize(n + RoughnessCells::excess);
       level.about.resize(next.about.empty() ? 0 : n + RoughnessCells::excess);
       const std::vector<double>& second = next.about.empty() ? next.across : next.about;
       std::vector<double>& to_second = next.about.empty() ? level.across : level.about;
-      from_next_->at_nodes(next.across.data(), second.data(), level.across.data(), to_second.data());
+      level.from_next->at_nodes(next.across.data(), second.data(), level.across.data(), to_second.data());
     }
   } else {
     take_moduli(level, number == (kinks() || level.grid->pieces() ? 0 : 1));
@@ -258,14 +258,16 @@ void LevelSolver::solve(double pressure, double velocity, double shift) {
   if (!pieces_.empty() && solve_on(pieces_, pressure, shift)) return;
   begin_panels();
   if (solve_on(panels_, pressure, shift)) return;
-  if (!window_) end_panels_at_front();
-  if (solve_on(panels_, pressure, shift, true)) return;
+  if (!window_) {
+    lay_out_front();
+    if (solve_on(front_, pressure, shift)) return;
+  }
   throw NotConverged("mu_H = " + show(hysteresis_.value) + " with relative error " + show(error_) + " on " +
                      std::to_string(solved_->grid->size()) + " nodes where " + argument("rtol") + " = " +
                      show(model_.rtol) + " was asked for");
 }
 
-bool LevelSolver::solve_on(Levels& levels, double pressure, double shift, bool at_front) {
+bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
   const bool by_pieces = &levels == &pieces_;
   const double root = 1 / (pressure * shift);
   scale_ = root * root;
@@ -321,7 +323,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift, bool a
     if (!(error <= most_error * model_.rtol)) continue;
     const double misfit = !by_pieces && now.friction > 0 ? level.theory->front_misfit() / now.friction : 0;
     if (!(misfit <= (shift == 1 ? most_misfit : most_error) * model_.rtol)) {
-      if (number == levels_before_front && !at_front) return false;
+      if (number == levels_before_front && &levels != &front_) return false;
       continue;
     }
     sums_ = now;

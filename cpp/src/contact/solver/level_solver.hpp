@@ -62,6 +62,7 @@ class LevelSolver {
     Eigen::VectorXd place;                                 // ln q of nodes of panels
     std::vector<ModulusFactors> factors;                   // none where all are 1
     Rings rings;                                           // with directions
+    std::optional<RoughnessCells> from_next;               // to the first of panels, where the modulus is analytic
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
     std::vector<double> across;            // of rings, as i1
@@ -75,9 +76,9 @@ class LevelSolver {
   [[nodiscard]] bool kinks() const { return !analytic_ || waves_.softening(); }
   void begin(double velocity);
   void begin_panels();
-  void end_panels_at_front();
+  void lay_out_front();
   void take_harmonics();
-  [[nodiscard]] bool solve_on(Levels& levels, double pressure, double shift, bool at_front = false);
+  [[nodiscard]] bool solve_on(Levels& levels, double pressure, double shift);
   Level& at_velocity(Levels& levels, std::size_t number);
   void lay_out(Levels& levels, std::size_t number);
   void take_moduli(Level& level, bool first);
@@ -102,10 +103,9 @@ class LevelSolver {
   Options options_;
   double stiffening_;
   std::optional<RoughnessWindow> window_;      // with PartialContact
-  Levels pieces_, panels_;                     // none where they do not serve
+  Levels pieces_, panels_, front_;             // no pieces where they do not serve; the last of one point
   std::size_t first_level_ = 0;                // of panels
-  std::optional<RoughnessCells> from_next_;    // to the first level of panels, where the modulus is analytic
-  std::vector<double> stops_;                  // of panels at the velocity [1/m]
+  std::vector<double> stops_, front_stops_;    // of panels at the velocity, and of those of the point [1/m]
   std::optional<double> held_from_;            // where beyond the end of the roughness the modulus is not known [1/m]
   double velocity_ = 0, panels_velocity_ = 0;  // of the point, and of the last on panels
   Directions::Needed needed_{};                // of the harmonics of rings
