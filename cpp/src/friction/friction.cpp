@@ -132,11 +132,11 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   const double g_error = (solver_.g_error_is_in_hysteresis() ? 0 : of_g) + others;
   const double area_error =
       partial_ ? solver_.partial_area_error() + angular_error : sensitivity(false) * (of_g + others);
-  at.error_estimate =
+  const double with_g =
       hysteresis.error +
       at.hysteresis * (sensitivity(s_in_integrand(scene_.model.correction).has_value() || partial_) * g_error +
-                       2 * shift.relative_error + angular_error) +
-      at.adhesion * area_error;
+                       2 * shift.relative_error + angular_error);
+  at.error_estimate = std::fmax(with_g, hysteresis.least_error) + at.adhesion * area_error;
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
     throw NotConverged(argument("mu") + " = " + value(mu) + " with error " + show(at.error_estimate) + " where " +
                        argument("rtol") + " = " + show(scene_.model.rtol) + " was asked for");

@@ -328,10 +328,13 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     }
     sums_ = now;
     g_ = level.theory->unit_g() * scale_;
-    const double least = by_pieces || !window_ ? least_error : knots ? least_at_knots : least_without_front;
-    error_ = std::max({error, misfit, least * model_.rtol});
+    const double value = mu_factor_ * now.friction, own = std::fmax(error, misfit),
+                 least = by_pieces || !window_ ? least_error
+                         : knots               ? least_at_knots
+                                               : least_without_front;
+    error_ = std::fmax(own, least * model_.rtol);
     const VectorXd steering = rings_of_ ? level.theory->steering() : VectorXd();
-    hysteresis_ = {mu_factor_ * now.friction, mu_factor_ * now.friction * error_, mu_factor_ * now.friction * outside,
+    hysteresis_ = {value, value * own, value * error_, value * outside,
                    mu_factor_ * (steering.size() > 0 ? across(level, now, steering) : lateral)};
     solved_ = &level;
     return true;

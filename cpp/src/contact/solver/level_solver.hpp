@@ -26,6 +26,7 @@ class LevelSolver {
   };
   struct Hysteresis {
     double value = 0, error = 0;
+    double least_error = 0;  // that is to be stated, as levels may agree by chance
     double outside = 0;  // the part of it from frequencies outside of the measured range
     double lateral = 0;  // the force across
   };

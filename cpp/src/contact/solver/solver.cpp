@@ -66,7 +66,7 @@ void Solver::solve(double pressure, double velocity, double shift) {
   if (const double g = gsl_solver_->g(surface_.back().b); g != 0) check_g(g, pressure);
   if (!options_.hysteresis) return;
   const GslSolver::Hysteresis result = gsl_solver_->hysteresis(model_.form, factor_);
-  hysteresis_ = {result.value, result.error, result.outside};
+  hysteresis_ = {result.value, result.error, 0, result.outside, 0};
   by_panel_ = result.by_panel;
 }
 
