@@ -107,8 +107,10 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   double by_end = mu.end, homogeneous = 0, beside = 0;
   if (rings_) by_rings_.setZero(static_cast<Index>(n), rings_->columns());
   integrals.rows = rings_ ? static_cast<std::size_t>(rings_->columns()) : 1;
+  integrals.reserve(mu.of.cold_i2.size() == 0 ? n : 2 * n);
   constexpr double alone = 1;
   const auto add = [&](const FeltModulus& felt, const VectorXd& of_i1, const VectorXd& of_i2, bool moves) {
+    const VectorXd log_w = column(felt.frequency, n).array().log();
     for (std::size_t j = 0; j < n; ++j) {
       const auto at = static_cast<Index>(j);
       const double i1 = felt.columns.i1[j], i2 = felt.columns.i2[j], by_i1 = i1 > 0 ? of_i1[at] : 0, by_i2 = of_i2[at];
@@ -132,7 +134,7 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
         by_g[at] += by_i2 * 2 * of_loss + by_i1;
       }
       if (rings_) rings_->add(felt, j, linear, storage, loss, by_rings_);
-      integrals.add(felt.frequency[j], linear, storage, loss, rings_ ? rings_->of_i1(j) : &alone,
+      integrals.add(felt.frequency[j], log_w[at], linear, storage, loss, rings_ ? rings_->of_i1(j) : &alone,
                     rings_ ? rings_->of_i2(j) : &alone);
     }
   };

@@ -98,7 +98,22 @@ GradientLevel::GradientLevel(const GradientScene& scene, std::size_t number)
       angular_(scene.rubber, chain_.factors(), scene.waves.rings(grid_)),
       known_(known_range(scene.rubber)) {
   angular_.take_harmonics(scene.harmonics);
-  if (std::holds_alternative<MasterCurve>(scene.rubber)) panels_.emplace(grid_);
+  if (std::holds_alternative<MasterCurve>(scene.rubber))
+    panels_.emplace(grid_);
+  else if (grid_.pieces() && grid_.size() == grid_.band_size() && scene.harmonics == 0 && chain_.factors().empty())
+    cells_ = &grid_.pieces()->cells();
+}
+
+/// Where I1, I2 and their slopes are analytic cells take far fewer frequencies.
+void GradientLevel::take_moduli(double velocity) {
+  if (!cells_) return angular_(mu_.felt, panels_ ? &*panels_ : nullptr, velocity);
+  AngularColumns &points = at_points_.columns, &nodes = mu_.felt.columns;
+  at_points_.frequency.resize(cells_->wavenumber().size());
+  std::ranges::transform(cells_->wavenumber(), at_points_.frequency.begin(), [&](double q) { return velocity * q; });
+  angular_(at_points_, nullptr, velocity);
+  nodes.resize(grid_.size() + RoughnessCells::excess);
+  cells_->at_nodes(points.i1.data(), points.i2.data(), nodes.i1.data(), nodes.i2.data());
+  cells_->at_nodes(points.slope1.data(), points.slope2.data(), nodes.slope1.data(), nodes.slope2.data());
 }
 
 PointGradient GradientLevel::operator()(const GradientPoint& point, const ShiftGradient& shift) {
@@ -112,7 +127,7 @@ PointGradient GradientLevel::operator()(const GradientPoint& point, const ShiftG
   }
   felt.rate = VectorXd::Constant(static_cast<Index>(n), point.shift_rate.value_or(0));
   felt.along = VectorXd::Ones(static_cast<Index>(n));
-  angular_(felt, panels_ ? &*panels_ : nullptr, point.velocity * point.a_T);
+  take_moduli(point.velocity * point.a_T);
   theory_->start({});
   theory_->take({{felt.columns.i1.data(), n}, {felt.columns.i2.data(), n}});
   const double root = 1 / (point.pressure * shift.p);

@@ -35,6 +35,7 @@ class GradientLevel {
   PointGradient operator()(const GradientPoint& point, const ShiftGradient& shift);
 
  private:
+  void take_moduli(double velocity);
   const GradientScene& scene_;
   RoughnessWindow window_;
   std::unique_ptr<const RoughnessPieces> cut_;  // where the waves' factors have kinks
@@ -42,9 +43,11 @@ class GradientLevel {
   std::unique_ptr<Theory> theory_;
   GradientChain chain_;
   AngularSlopes angular_;
-  std::optional<PanelSlopes> panels_;  // for a measured modulus
+  const RoughnessCells* cells_ = nullptr;  // by which a series is had at all nodes
+  std::optional<PanelSlopes> panels_;      // for a measured modulus
   std::optional<FrequencyRange> known_;
   MuSlopes mu_;
+  FeltModulus at_points_;  // of the cells
 };
 
 }  // namespace asperity

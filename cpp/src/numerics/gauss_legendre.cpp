@@ -94,7 +94,7 @@ LegendreRule make_rule(std::size_t n) {
 const LegendreRule& legendre_rule(std::size_t n) {
   static const std::vector<LegendreRule> rules = [] {
     std::vector<LegendreRule> made;
-    for (const std::size_t size : {8UL, 12UL, 16UL, 20UL, 24UL, 28UL, 32UL}) made.push_back(make_rule(size));
+    for (const std::size_t size : {4UL, 8UL, 12UL, 16UL, 20UL, 24UL, 28UL, 32UL}) made.push_back(make_rule(size));
     return made;
   }();
   for (const LegendreRule& rule : rules)

@@ -199,7 +199,12 @@ void ModulusGradient::take_integrals() {
   const Rubber& rubber = unlimited ? *unlimited : rubber_;
   const double lowest = breaks_.front();
   // nodes in ln w' that serve all w far above them; those of the tail in w'
-  const LegendreRule &rule = legendre_rule(4), &fine = legendre_rule(8);
+  constexpr std::size_t least = 4;
+  const LegendreRule& rule = legendre_rule(least);
+  // a rule of n nodes has cos(2 k phi) over an angle where 2 n is beyond k times that
+  const auto rule_for = [&](double angle) -> const LegendreRule& {
+    return legendre_rule(least + static_cast<std::size_t>(static_cast<double>(harmonics_ - 1) * angle / 2));
+  };
   std::vector<Node> nodes;
   std::vector<std::size_t> first;  // of each stretch, those of the tail before
   const auto add_far = [](Stretch& stretch, const Node& node) {
@@ -207,8 +212,8 @@ void ModulusGradient::take_integrals() {
     stretch.far.col(1) += 8 * node.weight * node.loss_square;
     if (node.loss > 0) stretch.far.col(2) += 4 * node.weight * node.w / node.loss * node.loss_square;
   };
-  for (std::size_t j = 0; j < fine.n; ++j) {
-    nodes.push_back(node_at(rubber, lowest * (1 + fine.node[j]) / 2, lowest * fine.weight[j] / 2));
+  for (std::size_t j = 0; j < rule.n; ++j) {
+    nodes.push_back(node_at(rubber, lowest * (1 + rule.node[j]) / 2, lowest * rule.weight[j] / 2));
     add_far(stretches_.front(), nodes.back());
   }
   for (Stretch& stretch : stretches_) {
@@ -233,15 +238,16 @@ void ModulusGradient::take_integrals() {
       std::size_t near = stretch.near;  // the first stretch that reaches beyond `far`
       while (stretches_[near].high <= AngularSums::far * w) ++near;
       const bool tail_near = near == 0 && lowest > AngularSums::far * w;
-      for (std::size_t k = tail_near ? fine.n : stretch.near == 0 ? 0 : first[stretch.near]; k < first[near]; ++k) {
+      for (std::size_t k = tail_near ? rule.n : stretch.near == 0 ? 0 : first[stretch.near]; k < first[near]; ++k) {
         const double u = nodes[k].w / w;
         add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), stretch, place);
       }
       const auto add_near = [&](double low, double high) {
         const double from = std::acos(std::fmin(1, high / w)), half = (std::acos(low / w) - from) / 2;
-        for (std::size_t j = 0; j < fine.n; ++j) {
-          const double at = w * std::cos(from + half * (1 + fine.node[j]));
-          add_node(node_at(rubber, at, 0), w, half * fine.weight[j], stretch, place);
+        const LegendreRule& near_rule = rule_for(2 * half);
+        for (std::size_t j = 0; j < near_rule.n; ++j) {
+          const double at = w * std::cos(from + half * (1 + near_rule.node[j]));
+          add_node(node_at(rubber, at, 0), w, half * near_rule.weight[j], stretch, place);
         }
       };
       if (tail_near) add_near(0, lowest);
@@ -250,16 +256,24 @@ void ModulusGradient::take_integrals() {
   }
 }
 
-void IntegralSlopes::add(double at, double by_i1, double by_storage, double by_loss, const double* of_i1,
+void IntegralSlopes::reserve(std::size_t count) {
+  for (auto* const column : {&w, &log_w}) column->reserve(count);
+  for (auto* const column : {&i1, &storage, &loss}) column->reserve(count * rows);
+}
+
+void IntegralSlopes::add(double at, double log_at, double by_i1, double by_storage, double by_loss, const double* of_i1,
                          const double* of_i2) {
   if (by_i1 == 0 && by_storage == 0 && by_loss == 0) return;
   w.push_back(at);
-  log_w.push_back(std::log(at));
-  for (std::size_t k = 0; k < rows; ++k) {
-    i1.push_back(by_i1 * of_i1[k]);
-    storage.push_back(by_storage * of_i2[k]);
-    loss.push_back(by_loss * of_i2[k]);
-  }
+  log_w.push_back(log_at);
+  const auto append = [&](std::vector<double>& to, double by, const double* of) {
+    const auto n = static_cast<Index>(rows);
+    to.resize(to.size() + rows);
+    VectorXd::Map(to.data() + to.size() - rows, n) = by * VectorXd::Map(of, n);
+  };
+  append(i1, by_i1, of_i1);
+  append(storage, by_storage, of_i2);
+  append(loss, by_loss, of_i2);
 }
 
 void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, VectorXd& loss) const {
@@ -275,19 +289,9 @@ void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, Ve
     if (at < breaks_[k] || (k + 1 < breaks_.size() && at >= breaks_[k + 1])) k = stretch_at(at);
     const std::array<double, 6> share = lagrange(std::sqrt(place(stretches_[k], of.log_w[j])));
     const Index first = static_cast<Index>(k - begin) * columns;
-    const double *const by_i1 = &of.i1[j * of.rows], *const by_storage = &of.storage[j * of.rows],
-                        *const by_loss = &of.loss[j * of.rows];
-    double *to_i1 = &i1[first], *to_storage = &of_storage[first], *to_loss = &of_loss[first];
-    for (const double part : share) {
-      for (std::size_t h = 0; h < of.rows; ++h) {
-        to_i1[h] += by_i1[h] * part;
-        to_storage[h] += by_storage[h] * part;
-        to_loss[h] += by_loss[h] * part;
-      }
-      to_i1 += harmonics_;
-      to_storage += harmonics_;
-      to_loss += harmonics_;
-    }
+    spread(share, &of.i1[j * of.rows], of.rows, &i1[first]);
+    spread(share, &of.storage[j * of.rows], of.rows, &of_storage[first]);
+    spread(share, &of.loss[j * of.rows], of.rows, &of_loss[first]);
   }
   // far above, cos(2 k phi) is (-1)^k, and cos((2 k + 1) phi) / cos(phi) that times 2 k + 1
   std::vector<Eigen::Vector3d> settled_by(stretches_.size() + 1, Eigen::Vector3d::Zero());

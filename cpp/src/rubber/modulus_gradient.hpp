@@ -16,8 +16,22 @@ struct IntegralSlopes {
   std::size_t rows = 1;
   std::vector<double> w, log_w, i1, storage, loss;
   /// Each over as many `rows` of a wave, which has them times `of_i1` and `of_i2`.
-  void add(double at, double by_i1, double by_storage, double by_loss, const double* of_i1, const double* of_i2);
+  void add(double at, double log_at, double by_i1, double by_storage, double by_loss, const double* of_i1,
+           const double* of_i2);
+  void reserve(std::size_t count);
 };
+
+/// To polynomials with these values at a place: what each row of it has, beside each other.
+template <std::size_t places>
+void spread(const std::array<double, places>& share, const double* by, std::size_t rows, double* to) {
+  if (rows == 1) {
+    const double one = *by;
+    for (std::size_t p = 0; p < places; ++p) to[p] += one * share[p];
+    return;
+  }
+  for (const double part : share)
+    for (std::size_t h = 0; h < rows; ++h) *to++ += by[h] * part;
+}
 
 /// Rows of a modulus at rising angular frequencies: those of a master curve, or of a Prony series steps of ln w between
 /// which ln E' and ln E'' change linearly. With the integrals of a number over E at the rows known once, a point takes

@@ -27,6 +27,7 @@ class SeriesSlopes {
   double first_;            // ln w, a whole number of steps: what a point has does not depend on the others of a call
   // of each term, a harmonic of a step: s / t, s, ds / d ln t over t, ds / d ln t
   Eigen::MatrixXd share_over_t_, share_, slope_over_t_, slope_;
+  Eigen::MatrixXd of_weights_, of_weights_by_time_;  // what w_k have of each E_l and tau_l beside those of their own
 };
 
 }  // namespace asperity

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "numerics/gauss_legendre.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 
@@ -17,6 +18,7 @@ RoughnessRows::RoughnessRows(std::span<const Segment> surface, bool of_table, co
     : surface_(surface),
       of_table_(of_table),
       rows_(std::move(wavenumber)),
+      log_rows_(logarithms(rows_)),
       first_{0},
       directions_(directions),
       harmonics_(directions ? harmonics : 0) {
@@ -37,34 +39,36 @@ RoughnessRows::RoughnessRows(std::span<const Segment> surface, bool of_table, co
   first_.resize(grid.size() + 1, row_.size());
 }
 
-RoughnessRows::Shares RoughnessRows::shares_at(double wavenumber) const {
-  const auto above = std::upper_bound(rows_.begin() + 1, rows_.end() - 1, wavenumber);
-  const auto row = static_cast<std::size_t>(above - rows_.begin()) - 1;
-  const double a = rows_[row], b = rows_[row + 1];
+RoughnessRows::Shares RoughnessRows::shares_at(double wavenumber, double log_q) const {
+  const std::size_t row = interval_of(rows_, wavenumber);
+  const double a = rows_[row], b = rows_[row + 1], log_a = log_rows_[row];
   if (of_table_ && row < surface_.size() && surface_[row].straight) {
     const double x = std::clamp((wavenumber - a) / (b - a), 0.0, 1.0);
     const double lower = surface_[row].at_a * (1 - x), upper = surface_[row].at_b * x, whole = lower + upper;
     return whole > 0 ? Shares{row, lower / whole, upper / whole} : Shares{row, 0, 0};
   }
-  const double x = std::clamp(std::log(wavenumber / a) / std::log(b / a), 0.0, 1.0);
+  const double x = std::clamp((log_q - log_a) / (log_rows_[row + 1] - log_a), 0.0, 1.0);
   return {row, 1 - x, x};
 }
 
 void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch, double origin) {
   first_.resize(stretch.first + 1, row_.size());
   const std::size_t n = stretch.count;
-  const auto place = [&](double q) {
-    return grid.pieces() ? std::log(q) : std::sqrt(std::fmax(0, grid.distance(q) - origin));
+  const auto place = [&](double q, double log_q) {
+    return grid.pieces() ? log_q : std::sqrt(std::fmax(0, grid.distance(q) - origin));
   };
   std::vector<double> node(n), scale(n, 1.0);
-  for (std::size_t j = 0; j < n; ++j) node[j] = place(grid.wavenumber()[stretch.first + j]);
+  for (std::size_t j = 0; j < n; ++j) {
+    const double q = grid.wavenumber()[stretch.first + j];
+    node[j] = place(q, std::log(q));
+  }
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t k = 0; k < n; ++k)
       if (k != j) scale[j] /= node[j] - node[k];
   const LegendreRule& rule = legendre_rule(std::min(n + 2, LegendreRule::most));
   // of each node and row a share, and each harmonic times it
-  const std::size_t width = harmonics_ + 1, from = shares_at(stretch.lower).row,
-                    rows = shares_at(stretch.upper).row + 2 - from;
+  const std::size_t width = harmonics_ + 1, from = interval_of(rows_, stretch.lower),
+                    rows = interval_of(rows_, stretch.upper) + 2 - from;
   std::vector<double> of(n * rows * width), whole(n * width);
   const auto add = [&](double* to, double share, const Rings& rings) {
     to[0] += share;
@@ -77,14 +81,15 @@ void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stre
   for (auto one = segment; one != surface_.end() && one->b < stretch.upper; ++one) ends.push_back(one->b);
   std::ranges::sort(ends);
   for (std::size_t end = 1; end < ends.size(); ++end) {
-    const double lower = ends[end - 1], half = std::log(ends[end] / lower) / 2;
+    const double lower = ends[end - 1], half = std::log(ends[end] / lower) / 2, log_lower = std::log(lower);
     if (!(half > 0)) continue;
     while (segment->b <= lower && segment + 1 != surface_.end()) ++segment;
     for (std::size_t i = 0; i < rule.n; ++i) {
-      const double q = lower * std::exp(half * (1 + rule.node[i])), t = place(q), square = q * q;
+      const double along = half * (1 + rule.node[i]), q = lower * std::exp(along), log_q = log_lower + along;
+      const double t = place(q, log_q), square = q * q;
       const double part = half * rule.weight[i] * square * square * segment->density(q);
       if (!(part > 0)) continue;
-      const Shares at = shares_at(q);
+      const Shares at = shares_at(q, log_q);
       const Rings rings = harmonics_ > 0 ? directions_->at(q) : Rings();
       for (std::size_t j = 0; j < n; ++j) {
         double polynomial = part * scale[j];

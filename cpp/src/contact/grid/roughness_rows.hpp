@@ -29,13 +29,13 @@ class RoughnessRows {
     std::size_t row;
     double lower, upper;
   };
-  [[nodiscard]] Shares shares_at(double wavenumber) const;
+  [[nodiscard]] Shares shares_at(double wavenumber, double log_q) const;
   /// `origin` is that of a panel's cell.
   void add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch, double origin = 0);
 
   std::span<const Segment> surface_;
   bool of_table_;
-  std::vector<double> rows_;
+  std::vector<double> rows_, log_rows_;
   std::vector<std::size_t> first_;  // of each node among the entries
   std::vector<Eigen::Index> row_;
   std::vector<double> share_;

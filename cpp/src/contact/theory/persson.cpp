@@ -94,20 +94,20 @@ class PerssonTheory final : public Theory {
     const double p = p_of(g, form_);
     return factor_ ? p * (*factor_)(p) : p;
   }
-  [[nodiscard]] double p_s_slope(double g) const {
+  [[nodiscard]] double p_s_slope(double g, double share) const {
     const double slope = contact_slope(g, form_), gamma = contact_.gamma;
-    if (!factor_) return slope;
-    const double p = p_of(g, form_);
-    return slope * (gamma + 3 * (1 - gamma) * (p * p));
+    return factor_ ? slope * (gamma + 3 * (1 - gamma) * (share * share)) : slope;
   }
   void integral_of(const double* g, Index n, double* f) const;
   void take_stress();
+  [[nodiscard]] VectorXd shares_of(const VectorXd& g) const;
+  void multiply_by_s(VectorXd& shares) const;
 
   Form form_;
   std::optional<SFunction> factor_;
   ContactIntegral contact_;
   AreaG area_g_;
-  VectorXd g_at_load_, f_, measure_;
+  VectorXd g_at_load_, share_, f_, measure_;
   std::vector<double> edge_, f_edge_;  // G and F at the ends of cells, at the load
 };
 
@@ -118,17 +118,25 @@ void PerssonTheory::integral_of(const double* g, Index n, double* f) const {
     if (g[i] < contact_.whole) f[i] = g[i];
 }
 
-/// P S at the nodes.
-void PerssonTheory::take_stress() {
-  const Index n = g_at_load_.size();
-  stress_ = g_at_load_.cwiseMax(0);  // an interpolated G may be below 0 at the first nodes
+VectorXd PerssonTheory::shares_of(const VectorXd& g) const {
+  VectorXd result = g.cwiseMax(0);  // an interpolated G may be below 0 at the first nodes
   if (form_ == Form::exact)
-    contact_shares(stress_.data(), static_cast<std::size_t>(n), stress_.data());
+    contact_shares(result.data(), static_cast<std::size_t>(result.size()), result.data());
   else
-    for (double& one : stress_) one = p_of(one, form_);
+    for (double& one : result) one = p_of(one, form_);
+  return result;
+}
+
+void PerssonTheory::multiply_by_s(VectorXd& shares) const {
   const double gamma = contact_.gamma;
-  if (factor_)
-    for (Index i = 0; i < n; ++i) stress_[i] *= gamma + (1 - gamma) * (stress_[i] * stress_[i]);
+  if (factor_) shares.array() *= gamma + (1 - gamma) * (shares.array() * shares.array());
+}
+
+/// P and P S at the nodes.
+void PerssonTheory::take_stress() {
+  share_ = shares_of(g_at_load_);
+  stress_ = share_;
+  multiply_by_s(stress_);
 }
 
 void PerssonTheory::evaluate(double scale, std::optional<double> /*log_kappa*/) {
@@ -236,7 +244,7 @@ void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& res
       for (Index i = 0; i < count; ++i) {
         const Index at = first + i;
         if (!(ratio_[at] > 0 && stress_[at] > 0)) continue;
-        part.row(i) = along.i2.row(at) + (p_s_slope(g_at_load_[at]) / stress_[at]) * slopes.node.row(at);
+        part.row(i) = along.i2.row(at) + (p_s_slope(g_at_load_[at], share_[at]) / stress_[at]) * slopes.node.row(at);
         whole -= part_[at] / ratio_[at] / rise * part.row(i);
       }
       for (Index i = 0; i < count; ++i) part.row(i) = part_[first + i] * (part.row(i) + whole);
@@ -258,17 +266,19 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
   result.i2.setZero(i2_.size());
   result.weight.setZero(i2_.size());
   result.window.setZero(n);
-  double at_begin = p_s(edge_[0]);
+  if (!grid_.pieces()) take_stress();
+  VectorXd at_edges = shares_of(VectorXd::Map(edge_.data(), std::ssize(edge_)));
+  multiply_by_s(at_edges);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
     const auto edge = static_cast<Index>(c);
-    const double at_end = p_s(edge_[c + 1]), before = std::exchange(at_begin, at_end);
+    const double before = at_edges[edge], at_end = at_edges[edge + 1];
     if (cells[c].rule) {  // by dF = P S dG
       const LegendreRule& rule = *cells[c].rule;
       const Eigen::Map<const VectorXd> at_lower(rule.at_lower, count), at_upper(rule.at_upper, count);
       const VectorXd by_measure = number.by_part.segment(first, count).cwiseProduct(ratio_.segment(first, count)),
                      by_f = -(slopes_of(rule) * by_measure);
-      for (Index i = 0; i < count; ++i) by_node[first + i] = p_s(g_at_load_[first + i]) * by_f[i];
+      for (Index i = 0; i < count; ++i) by_node[first + i] = stress_[first + i] * by_f[i];
       by_edge[edge + 1] += at_end * at_upper.dot(by_measure);
       by_edge[edge] -= before * at_lower.dot(by_measure);
     } else {  // the nodes share what F rises
@@ -279,7 +289,7 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
       for (Index i = first; i < first + count; ++i) {
         if (!(ratio_[i] > 0 && stress_[i] > 0)) continue;
         result.weight[i] = result.ratio[i] - whole * (part_[i] / ratio_[i]) / rise;
-        by_node[i] = result.weight[i] * p_s_slope(g_at_load_[i]) / stress_[i];
+        by_node[i] = result.weight[i] * p_s_slope(g_at_load_[i], share_[i]) / stress_[i];
       }
     }
   }
