@@ -42,6 +42,8 @@ GradientChain::GradientChain(const GradientScene& scene, const ContactGrid& grid
   if (std::ranges::any_of(numbers, [](const std::string& name) { return name.ends_with("gamma"); }))
     gamma_.emplace(scene.model, scene.spectrum, scene.surface, grid);
   if (scene.model.strain_factors) strain_.emplace(*scene.model.strain_factors, scene.surface, grid);
+  integrals_.rows = rings_ ? static_cast<std::size_t>(rings_->columns()) : 1;
+  integrals_.parted = strain_.has_value();
 }
 
 /// alpha = 1.5 m0 m4 / m2^2 of m_n = int q^(n + 1) C dq.
@@ -101,13 +103,11 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   const std::size_t n = grid_.size(), band = grid_.band_size();
   const ContactGrid::Beyond& beyond = grid_.beyond();
   const std::size_t edges_end = beyond.end ? beyond.first + beyond.count + 1 : band;
-  IntegralSlopes integrals;
+  integrals_.clear();
   PointGradient result;
   VectorXd by_f = VectorXd::Zero(static_cast<Index>(strain_ ? n : 0)), by_g = by_f;
   double by_end = mu.end, homogeneous = 0, beside = 0;
   if (rings_) by_rings_.setZero(static_cast<Index>(n), rings_->columns());
-  integrals.rows = rings_ ? static_cast<std::size_t>(rings_->columns()) : 1;
-  integrals.reserve(mu.of.cold_i2.size() == 0 ? n : 2 * n);
   constexpr double alone = 1;
   const auto add = [&](const FeltModulus& felt, const VectorXd& of_i1, const VectorXd& of_i2, bool moves) {
     const VectorXd log_w = column(felt.frequency, n).array().log();
@@ -115,27 +115,26 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
       const auto at = static_cast<Index>(j);
       const double i1 = felt.columns.i1[j], i2 = felt.columns.i2[j], by_i1 = i1 > 0 ? of_i1[at] : 0, by_i2 = of_i2[at];
       if (by_i1 == 0 && by_i2 == 0) continue;
+      const double per_i1 = i1 > 0 ? by_i1 / i1 : 0, per_i2 = by_i2 / i2;
       const bool held = known_ && j >= band && felt.frequency[j] == known_->highest;  // by its user
       if (!held) {
-        const double slope1 = i1 > 0 ? felt.columns.slope1[j] / i1 : 0,
-                     part = by_i2 * (felt.columns.slope2[j] / i2) + by_i1 * slope1;
+        const double part = per_i2 * felt.columns.slope2[j] + per_i1 * felt.columns.slope1[j];
         result.by_frequency += part;
         result.by_temperature += part * felt.rate[at];
-        if (!felt.beside.i1.empty())
-          beside += by_i2 * (felt.beside.slope2[j] / i2) + (i1 > 0 ? by_i1 * (felt.beside.slope1[j] / i1) : 0) - part;
+        if (!felt.beside.i1.empty()) beside += per_i2 * felt.beside.slope2[j] + per_i1 * felt.beside.slope1[j] - part;
         if (moves && j >= band && j < edges_end) by_end += part * felt.along[at];
       }
       homogeneous += by_i1 + 2 * by_i2;
       const auto [f, g] = strain_ ? strain_->factors()[j] : ModulusFactors{};
-      const double linear = by_i1 == 0 ? 0 : by_i1 * g / i1, storage = f * f * by_i2 / i2, loss = g * g * by_i2 / i2;
+      const double linear = g * per_i1, storage = f * f * per_i2, loss = g * g * per_i2;
       if (strain_) {
-        const double of_loss = g * g * felt.loss_part[j] / i2;
-        by_f[at] += by_i2 * 2 * (1 - of_loss);
-        by_g[at] += by_i2 * 2 * of_loss + by_i1;
+        const double by_loss = 2 * loss * felt.loss_part[j];
+        by_f[at] += 2 * by_i2 - by_loss;
+        by_g[at] += by_loss + by_i1;
       }
       if (rings_) rings_->add(felt, j, linear, storage, loss, by_rings_);
-      integrals.add(felt.frequency[j], log_w[at], linear, storage, loss, rings_ ? rings_->of_i1(j) : &alone,
-                    rings_ ? rings_->of_i2(j) : &alone);
+      integrals_.add(felt.frequency[j], log_w[at], linear, storage, loss, rings_ ? rings_->of_i1(j) : &alone,
+                     rings_ ? rings_->of_i2(j) : &alone);
     }
   };
   add(mu.felt, mu.of.ratio, mu.of.i2 - mu.of.ratio, true);
@@ -151,10 +150,10 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   result.spectrum = rows_(by_node, by_rings_);
   add_law(mu, shift, by_node, at_q1, result);
   if (rings_) result.arguments.push_back(one(rings_->turned(by_rings_)));
-  scene_.modulus(integrals, result.storage, result.loss);
+  scene_.modulus(integrals_, result.storage, result.loss);
   // I1 is linear in E and I2 a square
   result.missed = std::fmax(std::fabs(result.storage.sum() + result.loss.sum() - homogeneous), std::fabs(beside));
-  add_modulus(mu, integrals, shift, result);
+  add_modulus(mu, shift, result);
   if (strain_) {
     result.arguments.push_back(one(strain.per_slope));
     result.arguments.push_back(std::move(strain.storage));
@@ -179,11 +178,10 @@ double GradientChain::by_frequency_of(const MuSlopes& mu, const ShiftGradient& s
 }
 
 /// Over the rows of the modulus and the terms of a series. A p_T that knows |E| has it at one frequency.
-void GradientChain::add_modulus(const MuSlopes& mu, const IntegralSlopes& integrals, const ShiftGradient& shift,
-                                PointGradient& result) const {
+void GradientChain::add_modulus(const MuSlopes& mu, const ShiftGradient& shift, PointGradient& result) const {
   const auto* const series = std::get_if<PronySeries>(&scene_.rubber);
   SeriesGradient terms;
-  if (series) terms = (*scene_.terms)(integrals);
+  if (series) terms = (*scene_.terms)(integrals_);
   if (shift.macro_wavenumber > 0) {
     const double by_modulus = 2 * mu.of.scale * shift.pressure;  // d mu / d ln |E|
     const double w = shift.velocity * shift.macro_wavenumber;

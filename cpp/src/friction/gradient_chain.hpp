@@ -86,8 +86,7 @@ class GradientChain {
   void take_directional_law();
   [[nodiscard]] double at_end(const Eigen::VectorXd& by_node) const;
   [[nodiscard]] double by_frequency_of(const MuSlopes& mu, const ShiftGradient& shift) const;
-  void add_modulus(const MuSlopes& mu, const IntegralSlopes& integrals, const ShiftGradient& shift,
-                   PointGradient& result) const;
+  void add_modulus(const MuSlopes& mu, const ShiftGradient& shift, PointGradient& result) const;
   void add_law(const MuSlopes& mu, const ShiftGradient& shift, const Eigen::VectorXd& by_node, double at_q1,
                PointGradient& result) const;
 
@@ -101,6 +100,7 @@ class GradientChain {
   std::vector<Eigen::VectorXd> law_;        // d ln C of the nodes over each number of a law
   std::vector<Eigen::MatrixXd> law_rings_;  // and, with directions, of their harmonics
   Eigen::MatrixXd by_rings_;
+  IntegralSlopes integrals_;
   Eigen::VectorXd nayak_;        // the same of ln alpha over ln C of the nodes
   std::vector<SInside> inside_;  // at an alpha that is less, and more
   std::optional<GammaGradient> gamma_;

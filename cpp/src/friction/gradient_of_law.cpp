@@ -125,7 +125,7 @@ void GradientChain::take_directional_law() {
   };
   const auto add_every = [&](double value) {
     law_.push_back(VectorXd::Constant(n, value));
-    law_rings_.push_back(Eigen::MatrixXd::Zero(n, count));
+    law_rings_.emplace_back();
   };
   const double at_q1 = law.q1 * law.q1 * density(law, law.q1) / (law.rms_height * law.rms_height);
   add_every(2);
@@ -144,7 +144,8 @@ void GradientChain::add_law(const MuSlopes& mu, const ShiftGradient& shift, cons
   const double by_shift = -2 * mu.of.scale;  // over ln p_T
   std::vector<double> slopes;
   for (const VectorXd& of_nodes : law_) slopes.push_back(by_node.head(of_nodes.size()).dot(of_nodes));
-  for (std::size_t k = 0; k < law_rings_.size(); ++k) slopes[k] += by_rings_.cwiseProduct(law_rings_[k]).sum();
+  for (std::size_t k = 0; k < law_rings_.size(); ++k)
+    if (law_rings_[k].size() > 0) slopes[k] += by_rings_.cwiseProduct(law_rings_[k]).sum();
   slopes[3] += at_q1;
   slopes[2] = slopes[0] - by_shift * shift.rms_height - slopes[3] + result.by_frequency + mu.by_lengths;
   const bool rolled = scene_.law->rolloff.has_value();

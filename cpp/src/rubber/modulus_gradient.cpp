@@ -199,12 +199,10 @@ void ModulusGradient::take_integrals() {
   const Rubber& rubber = unlimited ? *unlimited : rubber_;
   const double lowest = breaks_.front();
   // nodes in ln w' that serve all w far above them; those of the tail in w'
-  constexpr std::size_t least = 4;
-  const LegendreRule& rule = legendre_rule(least);
-  // a rule of n nodes has cos(2 k phi) over an angle where 2 n is beyond k times that
-  const auto rule_for = [&](double angle) -> const LegendreRule& {
-    return legendre_rule(least + static_cast<std::size_t>(static_cast<double>(harmonics_ - 1) * angle / 2));
-  };
+  const LegendreRule& rule = legendre_rule(4);
+  // a rule of n nodes has cos(2 k phi) over an angle where 2 n is beyond k times that, which is 2 of what is far
+  const auto last = static_cast<double>(harmonics_ - 1);
+  const double far = std::fmin(AngularSums::far, 2 / (longest * last));
   std::vector<Node> nodes;
   std::vector<std::size_t> first;  // of each stretch, those of the tail before
   const auto add_far = [](Stretch& stretch, const Node& node) {
@@ -236,15 +234,15 @@ void ModulusGradient::take_integrals() {
       const double w = stretch.low * std::pow(stretch.high / stretch.low, s * s);
       stretch.inverse_w[static_cast<std::size_t>(place)] = 1 / w;
       std::size_t near = stretch.near;  // the first stretch that reaches beyond `far`
-      while (stretches_[near].high <= AngularSums::far * w) ++near;
-      const bool tail_near = near == 0 && lowest > AngularSums::far * w;
+      while (stretches_[near].high <= far * w) ++near;
+      const bool tail_near = near == 0 && lowest > far * w;
       for (std::size_t k = tail_near ? rule.n : stretch.near == 0 ? 0 : first[stretch.near]; k < first[near]; ++k) {
         const double u = nodes[k].w / w;
         add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), stretch, place);
       }
       const auto add_near = [&](double low, double high) {
         const double from = std::acos(std::fmin(1, high / w)), half = (std::acos(low / w) - from) / 2;
-        const LegendreRule& near_rule = rule_for(2 * half);
+        const LegendreRule& near_rule = legendre_rule(4 + static_cast<std::size_t>(last * half));
         for (std::size_t j = 0; j < near_rule.n; ++j) {
           const double at = w * std::cos(from + half * (1 + near_rule.node[j]));
           add_node(node_at(rubber, at, 0), w, half * near_rule.weight[j], stretch, place);
@@ -256,9 +254,8 @@ void ModulusGradient::take_integrals() {
   }
 }
 
-void IntegralSlopes::reserve(std::size_t count) {
-  for (auto* const column : {&w, &log_w}) column->reserve(count);
-  for (auto* const column : {&i1, &storage, &loss}) column->reserve(count * rows);
+void IntegralSlopes::clear() {
+  for (auto* const column : {&w, &log_w, &i1, &storage, &loss}) column->clear();
 }
 
 void IntegralSlopes::add(double at, double log_at, double by_i1, double by_storage, double by_loss, const double* of_i1,
@@ -266,14 +263,11 @@ void IntegralSlopes::add(double at, double log_at, double by_i1, double by_stora
   if (by_i1 == 0 && by_storage == 0 && by_loss == 0) return;
   w.push_back(at);
   log_w.push_back(log_at);
-  const auto append = [&](std::vector<double>& to, double by, const double* of) {
-    const auto n = static_cast<Index>(rows);
-    to.resize(to.size() + rows);
-    VectorXd::Map(to.data() + to.size() - rows, n) = by * VectorXd::Map(of, n);
-  };
-  append(i1, by_i1, of_i1);
-  append(storage, by_storage, of_i2);
-  append(loss, by_loss, of_i2);
+  for (std::size_t k = 0; k < rows; ++k) {
+    i1.push_back(by_i1 * of_i1[k]);
+    storage.push_back(by_storage * of_i2[k]);
+    if (parted) loss.push_back(by_loss * of_i2[k]);
+  }
 }
 
 void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, VectorXd& loss) const {
@@ -291,8 +285,9 @@ void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, Ve
     const Index first = static_cast<Index>(k - begin) * columns;
     spread(share, &of.i1[j * of.rows], of.rows, &i1[first]);
     spread(share, &of.storage[j * of.rows], of.rows, &of_storage[first]);
-    spread(share, &of.loss[j * of.rows], of.rows, &of_loss[first]);
+    if (of.parted) spread(share, &of.loss[j * of.rows], of.rows, &of_loss[first]);
   }
+  if (!of.parted) of_loss = of_storage;
   // far above, cos(2 k phi) is (-1)^k, and cos((2 k + 1) phi) / cos(phi) that times 2 k + 1
   std::vector<Eigen::Vector3d> settled_by(stretches_.size() + 1, Eigen::Vector3d::Zero());
   for (std::size_t i = begin; i < end; ++i) {

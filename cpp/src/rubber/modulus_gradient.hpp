@@ -14,11 +14,12 @@ namespace asperity {
 /// and the parts of K_k, k from 0, I1 and I2 themselves, to their number, beside each other.
 struct IntegralSlopes {
   std::size_t rows = 1;
+  bool parted = false;  // E'' has not the same factor in I2 as E': else `loss` is empty
   std::vector<double> w, log_w, i1, storage, loss;
   /// Each over as many `rows` of a wave, which has them times `of_i1` and `of_i2`.
   void add(double at, double log_at, double by_i1, double by_storage, double by_loss, const double* of_i1,
            const double* of_i2);
-  void reserve(std::size_t count);
+  void clear();
 };
 
 /// To polynomials with these values at a place: what each row of it has, beside each other.

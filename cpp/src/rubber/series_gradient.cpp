@@ -88,7 +88,7 @@ SeriesGradient SeriesSlopes::operator()(const IntegralSlopes& of) const {
   result.moduli = e.cwiseProduct(linear) + weight.cwiseProduct(weights) + of_weights_ * weight;
   result.relaxation_times = e.cwiseProduct(over(slope_over_t_, by_i1) - linear) +
                             weights.cwiseProduct(over(slope_, by_i2)) + of_weights_by_time_ * weight;
-  if (of.loss == of.storage) return result;
+  if (!of.parted) return result;
   std::vector<double> beside(of.loss.size());  // of I2 as a whole, and of its part by E'' what it has beside that
   std::ranges::transform(of.loss, of.storage, beside.begin(), std::minus());
   loss_part_gradient(series_, of.w, beside, {result.moduli.data(), static_cast<std::size_t>(n)},

@@ -127,7 +127,7 @@ double plane_height(const SelfAffineSpectrum& s) {
   if (end < s.q1)
     sum += end * end * std::pow(end / q_r, fall(s)) * mean_of_shape(s) *
            exponential_integral(2 + fall(s), std::log(s.q1 / end));
-  constexpr int panels = 32;
+  constexpr int panels = 8;
   const LegendreRule& rule = legendre_rule(8);
   const double length = std::log(end / begin);
   for (int i = 0; i < panels; ++i)

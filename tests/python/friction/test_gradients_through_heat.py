@@ -30,6 +30,7 @@ GROUND = asperity.TabulatedSpectrum(
 SERIES = prony(3e6, np.geomspace(1e6, 3e8, 9), np.geomspace(1e-2, 1e-9, 9))
 W = np.geomspace(1e-5, 1e11, 60)
 MEASURED = curve_of(W, SERIES.modulus(W))
+PARTS = {"storage": "real", "loss": "imag"}
 STRAIN = asperity.StrainFactors(
     strain=[0.001, 0.01, 0.1, 0.3, 0.6],
     storage=[0.95, 0.75, 0.45, 0.34, 0.3],
@@ -182,6 +183,30 @@ def test_each_of_several_states_has_its_own_slopes(branch):
     )
     assert result.branches == 3
     assert result.gradients.velocity == pytest.approx((more - less) / 2e-3, rel=1e-4)
+
+
+@pytest.mark.parametrize("name", ["storage", "loss"])
+def test_rows_of_the_modulus_on_narrow_ridges(name):
+    """Whose harmonics are so many that they turn often between two rows that stand far apart."""
+    few = np.geomspace(1e-4, 1e13, 35)
+    modulus = SERIES.modulus(few)
+    at = {"pressure": 2e5, "velocity": 0.1, "direction": 0.8}
+    narrow = with_changes(RIDGES, axis_ratio=10.0, lay=0.0)
+    several = slice(13, 17)
+
+    def solved(log_factor, **more):
+        kept = {one: np.array(getattr(modulus, part)) for one, part in PARTS.items()}
+        kept[name][several] *= np.exp(log_factor)
+        rubber = curve_of(few, kept["storage"] + 1j * kept["loss"])
+        return asperity.friction(narrow, rubber, **at, **more)
+
+    of = solved(0, gradients=True).gradients
+    slope = np.sum(getattr(of, name)[several]) * np.log(few[1] / few[0])
+    step = 1e-3
+    two, four = (
+        (solved(h, rtol=1e-7).mu - solved(-h, rtol=1e-7).mu) / (2 * h) for h in (step, 2 * step)
+    )
+    assert abs(slope - (4 * two - four) / 3) <= of.error_estimate
 
 
 def test_lay_and_direction_turn_the_same():

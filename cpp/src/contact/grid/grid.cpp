@@ -231,20 +231,20 @@ Eigen::VectorXd ContactGrid::integrate_back(const Eigen::VectorXd& at_nodes, con
   for (std::size_t c = cells_.size(); c-- > 0;) {
     const auto first = static_cast<Eigen::Index>(cells_[c].first), count = static_cast<Eigen::Index>(cells_[c].count);
     behind += at_ends[static_cast<Eigen::Index>(c) + 1];
-    const auto nodes = at_nodes.segment(first, count);
-    auto here = result.segment(first, count);
     if (options_.pieces) {
       const RoughnessPieces::Nodes& of = options_.pieces->nodes();
-      here.setZero();
-      for (Eigen::Index i = 0; i < count; ++i) {
-        here[0] += g_factor_ * of.of_first[cells_[c].first + static_cast<std::size_t>(i)] * nodes[i];
-        here[1] += g_factor_ * of.of_second[cells_[c].first + static_cast<std::size_t>(i)] * nodes[i];
-      }
+      const std::size_t i = cells_[c].first;
+      const double lower = at_nodes[first], upper = at_nodes[first + 1];
+      result[first] = g_factor_ * (of.of_first[i] * lower + of.of_first[i + 1] * upper) + behind * weight_[first];
+      result[first + 1] =
+          g_factor_ * (of.of_second[i] * lower + of.of_second[i + 1] * upper) + behind * weight_[first + 1];
+      behind += lower + upper;
     } else {
-      here.noalias() = cells_[c].to_g.transpose() * nodes;
+      const auto nodes = at_nodes.segment(first, count);
+      result.segment(first, count).noalias() =
+          cells_[c].to_g.transpose() * nodes + behind * weight_.segment(first, count);
+      behind += nodes.sum();
     }
-    here += behind * weight_.segment(first, count);
-    behind += nodes.sum();
   }
   return result;
 }
