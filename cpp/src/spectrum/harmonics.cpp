@@ -40,7 +40,7 @@ std::vector<double> means(const SelfAffineSpectrum& s, double x, std::size_t n) 
     result[m] =
         m == 0 ? 1 - 2 * edge / pi : -std::sin(2 * static_cast<double>(m) * edge) / (pi * static_cast<double>(m));
   const LegendreRule& rule = legendre_rule(24);
-  const auto pieces = static_cast<std::size_t>(std::ceil(12 * edge / (pi / 2)));
+  const auto pieces = static_cast<std::size_t>(std::ceil(6 * edge / (pi / 2)));
   const auto nodes = static_cast<Eigen::Index>(pieces * rule.n);
   Eigen::ArrayXd value(nodes), twice(nodes);
   for (Eigen::Index i = 0; i < nodes; ++i) {
