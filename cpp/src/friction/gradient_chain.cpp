@@ -77,6 +77,7 @@ VectorXd GradientChain::by_roughness(const MuSlopes& mu, double by_end, const Sh
 /// d mu over ln q of the upper end of the band as it moves outwards, C going on: what a node there has, over its d ln
 /// q.
 double GradientChain::at_end(const VectorXd& by_node) const {
+  constexpr double same = 1e-12;
   if (const RoughnessPieces* const pieces = grid_.pieces()) {  // of the last one, a straight line through its nodes
     const auto last = static_cast<Index>(2 * pieces->nodes().end.size()) - 1;
     const std::vector<double>& q = grid_.wavenumber();
@@ -85,7 +86,17 @@ double GradientChain::at_end(const VectorXd& by_node) const {
     const double end = scene_.surface.back().b, rise = (std::log(end) - at(last)) / (at(last) - at(last - 1));
     const double square = end * end, softening = 1 - scene_.model.poisson_ratio * scene_.model.poisson_ratio;
     const double rate = square * square * scene_.surface.back().at_b / (8 * softening * softening);
-    return rate * (per_weight(last) + rise * (per_weight(last) - per_weight(last - 1)));
+    double result = per_weight(last) + rise * (per_weight(last) - per_weight(last - 1));
+    if (by_node.size() <= grid_.weight().size() || grid_.macro_stretches().empty()) return rate * result;
+    const ContactGrid::Stretch& stretch = grid_.macro_stretches().back();
+    if (stretch.upper < end * (1 - same)) return rate * result;  // q_m is below the end
+    for (std::size_t j = stretch.first; j < stretch.first + stretch.count; ++j) {
+      double part = by_node[static_cast<Index>(j)] / grid_.macro_weight()[static_cast<Index>(j)];
+      for (std::size_t i = stretch.first; i < stretch.first + stretch.count; ++i)
+        if (i != j) part *= std::log(end / q[i]) / std::log(q[j] / q[i]);
+      result += part;
+    }
+    return rate * result;
   }
   const ContactGrid::Cell& cell = grid_.cells().back();
   const LegendreRule& rule = *cell.rule;

@@ -38,6 +38,7 @@ STRAIN = asperity.StrainFactors(
 )
 HEATING = tread()
 AREA = with_changes(HEATING, macro_area=0.1, residence="box", interface_share=0.9)
+SMALL = with_changes(HEATING, contact_diameter=1e-5)  # as long as the shortest waves
 OWN = with_changes(HEATING, macro_wavenumber=5e3, interface_share=0.4)
 STICKY = asperity.Adhesion(shear_stress=1e6)
 PARTIAL = asperity.PartialContact()
@@ -64,6 +65,7 @@ SCENES = {
     "strain on ridges": (GROUND, SERIES, {"strain_factors": STRAIN, "correction": PARTIAL}),
     "heat of ridges": (GROUND, MEASURED, {"heating": HEATING, "correction": PARTIAL}),
     "heat of rolled ridges": (ROLLED, SERIES, {"heating": HEATING, "correction": PARTIAL}),
+    "heat of all ridges": (RIDGES, SERIES, {"heating": SMALL, "correction": TOPS}),
     "heat and strain": (ROAD, SERIES, {"heating": HEATING, "strain_factors": STRAIN}),
 }
 NAMES = {
