@@ -103,7 +103,12 @@ class PointSolver {
 
 Point PointSolver::operator()(double pressure, double velocity, const Shift& shift) {
   Point at;
-  solver_.solve(pressure, velocity, shift.p);
+  // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
+  const bool tabulated = std::holds_alternative<MasterCurve>(scene_.rubber);
+  const double angular_error = tabulated ? 3e-13 : 1e-15;
+  const double others = 2 * shift.relative_error + angular_error,
+               of_g_in_mu = sensitivity(s_in_integrand(scene_.model.correction).has_value() || partial_);
+  solver_.solve(pressure, velocity, shift.p, (1 + of_g_in_mu) * others);
   const Solver::Hysteresis& hysteresis = solver_.hysteresis();
   at.hysteresis = hysteresis.value;
   at.lateral = hysteresis.lateral;
@@ -125,17 +130,11 @@ Point PointSolver::operator()(double pressure, double velocity, const Shift& shi
   }
   const double mu = at.hysteresis + at.adhesion;
 
-  // the error of I1 and I2: rounding of closed forms, or the tolerance of a table's pieces, over all their passes
-  const bool tabulated = std::holds_alternative<MasterCurve>(scene_.rubber);
-  const double angular_error = tabulated ? 3e-13 : 1e-15;
-  const double of_g = solver_.relative_error(), others = 2 * shift.relative_error + angular_error;
+  const double of_g = solver_.relative_error();
   const double g_error = (solver_.g_error_is_in_hysteresis() ? 0 : of_g) + others;
   const double area_error =
       partial_ ? solver_.partial_area_error() + angular_error : sensitivity(false) * (of_g + others);
-  const double with_g =
-      hysteresis.error +
-      at.hysteresis * (sensitivity(s_in_integrand(scene_.model.correction).has_value() || partial_) * g_error +
-                       2 * shift.relative_error + angular_error);
+  const double with_g = hysteresis.error + at.hysteresis * (of_g_in_mu * g_error + others);
   at.error_estimate = std::fmax(with_g, hysteresis.least_error) + at.adhesion * area_error;
   if (!(at.error_estimate <= scene_.model.rtol * mu && std::isfinite(mu)))
     throw NotConverged(argument("mu") + " = " + value(mu) + " with error " + show(at.error_estimate) + " where " +

@@ -172,3 +172,20 @@ def test_the_error_estimate_is_kept_where_the_contact_is_whole():
     exact = truth.contact(truth.table(wavenumber, density), integrals, **options)
     assert exact.g < 0.007  # P is 1 to rounding
     assert abs(result.mu - exact.mu) <= result.error_estimate
+
+
+def test_the_error_of_a_shift_has_its_room_in_the_tolerance():
+    """d~ has an error of its own, which the nodes cannot lessen."""
+    road = asperity.SelfAffineSpectrum(
+        rms_height=7e-5, hurst=0.726, q0=304, q1=5.21e8, rolloff=2.1e4
+    )
+    rubber = asperity.PronySeries(
+        equilibrium_modulus=2.06, moduli=[2.24e9], relaxation_times=[5.25e-6]
+    )
+    scene = {"pressure": 7.15e4, "velocity": 127.0}
+    asperities = asperity.GreenwoodWilliamson(z_max=2.1e-4, z_min=-2.1e-4)
+    result = asperity.friction(road, rubber, **scene, correction=asperities, rtol=1e-10)
+    shift = asperity.AffineShift(result.shift_factor)
+    exact = asperity.friction(road, rubber, **scene, correction=shift, method="qag", rtol=1e-11)
+    assert abs(result.mu - exact.mu) <= result.error_estimate + exact.error_estimate
+    assert result.error_estimate <= 1e-10 * result.mu

@@ -31,7 +31,8 @@ constexpr double of_change_at_fronts = 1.5;  // beside which levels agree by cha
 /// but at knots of a measured modulus one point in 50,000 was off by a third
 /// (tests/stability/random_partial_tables.py, random_scenes.py).
 constexpr double least_error = 0.75, least_at_knots = 1.0 / 3, least_without_front = 1.0 / 30;
-constexpr double most_error = 0.85, most_misfit = 0.95;  // of the tolerance; an affine shift has an error of its own
+/// Of the tolerance, less what errors of others take of it, but never below the last.
+constexpr double most_error = 0.85, most_misfit = 0.95, least_accepted = 0.1;
 /// As one level more is two digits more, one that changes much less than that does so by chance.
 constexpr double of_change_before = 1.0 / 64;
 constexpr std::size_t levels_before_front = 3;
@@ -252,7 +253,8 @@ double LevelSolver::share_beyond(double wavenumber) const {
   return std::fmin(1, sum / sums_.friction);
 }
 
-void LevelSolver::solve(double pressure, double velocity, double shift) {
+void LevelSolver::solve(double pressure, double velocity, double shift, double others) {
+  others_ = others;
   begin(velocity);
   solved_ = nullptr;
   if (!pieces_.empty() && solve_on(pieces_, pressure, shift)) return;
@@ -290,6 +292,9 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
                               ? std::fmax(edges_.i2_error / edges_.i2, edges_.i1 > 0 ? edges_.i1_error / edges_.i1 : 0)
                               : 0;
   const bool knots = kinks();
+  const auto accepted = [&](double share) {
+    return std::fmax(share * model_.rtol - others_, least_accepted * model_.rtol);
+  };
   double change_before = 0;
   for (std::size_t number = 1; number < levels.size(); ++number) {
     if (number > 1) heed();
@@ -320,9 +325,9 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     solved_ = coarse = &level;
     hysteresis_.value = mu_factor_ * now.friction;
     error_ = error;
-    if (!(error <= most_error * model_.rtol)) continue;
+    if (!(error <= accepted(most_error))) continue;
     const double misfit = !by_pieces && now.friction > 0 ? level.theory->front_misfit() / now.friction : 0;
-    if (!(misfit <= (shift == 1 ? most_misfit : most_error) * model_.rtol)) {
+    if (!(misfit <= accepted(most_misfit))) {
       if (number == levels_before_front && &levels != &front_) return false;
       continue;
     }

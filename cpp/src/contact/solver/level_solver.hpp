@@ -27,15 +27,16 @@ class LevelSolver {
   struct Hysteresis {
     double value = 0, error = 0;
     double least_error = 0;  // that is to be stated, as levels may agree by chance
-    double outside = 0;  // the part of it from frequencies outside of the measured range
-    double lateral = 0;  // the force across
+    double outside = 0;      // the part of it from frequencies outside of the measured range
+    double lateral = 0;      // the force across
   };
   /// `surface` is that of the spectrum; all but the options must outlive it.
   LevelSolver(const Spectrum& spectrum, std::span<const Segment> surface, const Excitation& waves,
               const ContactModel& model, const Options& options);
 
-  /// A point; one at the velocity of the point before is cheap. NotConverged if the tolerance is not reached.
-  void solve(double pressure, double velocity, double shift);
+  /// A point; one at the velocity of the point before is cheap. Errors of others take a part of the tolerance.
+  /// NotConverged if it is not reached.
+  void solve(double pressure, double velocity, double shift, double others);
 
   [[nodiscard]] const Hysteresis& hysteresis() const { return hysteresis_; }
   [[nodiscard]] const ContactSums& sums() const { return sums_; }
@@ -123,7 +124,7 @@ class LevelSolver {
   ContactSums sums_;
   Hysteresis hysteresis_;
   const Level* solved_ = nullptr;  // the finer of the last two
-  double scale_ = 0, mu_factor_ = 0, g_ = 0, error_ = 0;
+  double scale_ = 0, mu_factor_ = 0, g_ = 0, error_ = 0, others_ = 0;
 };
 
 }  // namespace asperity

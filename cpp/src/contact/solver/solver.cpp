@@ -54,9 +54,9 @@ Solver::Solver(const Spectrum& spectrum, std::span<const Segment> surface, const
         LevelSolver::Options{.hysteresis = options.hysteresis, .parts = options.parts, .stops = options.stops});
 }
 
-void Solver::solve(double pressure, double velocity, double shift) {
+void Solver::solve(double pressure, double velocity, double shift, double others) {
   if (levels_) {
-    levels_->solve(pressure, velocity, shift);
+    levels_->solve(pressure, velocity, shift, others);
     return;
   }
   std::vector<double> stops;

@@ -24,8 +24,9 @@ class Solver {
   Solver(const Spectrum& spectrum, std::span<const Segment> surface, const Rubber& rubber, const ContactModel& model,
          const Options& options);
 
-  /// A point; one at the velocity of the point before is cheap. NotConverged where the tolerance is not reached.
-  void solve(double pressure, double velocity, double shift);
+  /// A point; one at the velocity of the point before is cheap. Errors of others take a part of the tolerance.
+  /// NotConverged where it is not reached.
+  void solve(double pressure, double velocity, double shift, double others = 0);
 
   [[nodiscard]] const Hysteresis& hysteresis() const { return levels_ ? levels_->hysteresis() : hysteresis_; }
   [[nodiscard]] double hysteresis_density(double wavenumber) const;  // dmu_H / dln q
