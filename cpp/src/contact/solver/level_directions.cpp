@@ -30,7 +30,7 @@ void LevelSolver::add_directions_of_pieces(Level& level, std::span<double> of_lo
     cells.at_nodes(&loss_[m * points], &square_[m * points], &loss_at_nodes_[m * stride],
                    &square_at_nodes_[m * stride]);
   const std::span<double> i1{level.i1.data(), n};
-  const bool outside = any_outside_ && !level.i1_outside.empty();
+  const bool outside = !level.i1_outside.empty();
   if (outside)  // as if it had the directions of all
     for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] /= i1[i];
   add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, i1, level.across);

@@ -33,8 +33,8 @@ void LevelSolver::take_moduli_of_pieces(Level& level, bool first) {
   if (first && known_in_part_) {
     const RoughnessCells& cells = pieces.coarse_cells();
     outside_at_points_.resize(cells.wavenumber().size());
-    any_outside_ = take(cells, waves_.rubber(), outside_at_points_, 0);
-    if (any_outside_) {
+    level.i1_outside.clear();
+    if (take(cells, waves_.rubber(), outside_at_points_, 0)) {
       level.i1_outside.resize(n + RoughnessCells::excess);
       cells.at_nodes(outside_at_points_.data(), i1_.data(), level.i1_outside.data(), level.i1.data());
     }
@@ -58,7 +58,7 @@ void LevelSolver::take_moduli_of_pieces(Level& level, bool first) {
   if (rows == 0) level.about.clear();
   if (level.factors.empty()) return;
   soften(level.factors, at_nodes_, level.i1, level.i2,
-         first && any_outside_ ? std::span<double>(level.i1_outside) : std::span<double>());
+         first ? std::span<double>(level.i1_outside) : std::span<double>());
   for (std::size_t i = 0; rows > 0 && i < n; ++i) level.across[i] *= level.factors[i].loss;
 }
 

@@ -108,6 +108,7 @@ void LevelSolver::take_moduli(Level& level, bool first) {
                           level.mean_i1, level.mean_i2, std::span(level.about).first(level.about.empty() ? 0 : n)};
   const bool any = asked && waves_(level.frequency, level.factors, i1, i2, level.i1_outside, directed);
   if (first) any_outside_ = any;
+  if (!any) level.i1_outside.clear();
   if (analytic_ || !asked) (void)waves(level.frequency, level.factors, i1, i2, {}, directed);
 }
 
@@ -224,14 +225,14 @@ double LevelSolver::outside_share(const Level& level, const ContactSums& sums) c
   if (level.grid->pieces()) {
     if (window_) sum = sums.edges * level.grid->beyond().end->window * edges_.i1_outside;
     const VectorXd& stress = level.theory->stress();
-    for (Index i = 0; any_outside_ && i < stress.size(); ++i)
+    for (Index i = 0; !level.i1_outside.empty() && i < stress.size(); ++i)
       sum += level.grid->weight()[i] * stress[i] * level.i1_outside[static_cast<std::size_t>(i)];
     return sum / sums.friction;
   }
   const VectorXd& part = level.theory->part();
   for (std::size_t i = 0; i < level.grid->size(); ++i) {
     const bool held = i >= level.grid->band_size() && known_ && level.frequency[i] >= known_->highest;
-    if (level.i1[i] > 0 && (held || any_outside_))
+    if (level.i1[i] > 0 && (held || !level.i1_outside.empty()))
       sum += part[static_cast<Index>(i)] * (held ? 1 : level.i1_outside[i] / level.i1[i]);
   }
   return sum / scale_ / sums.friction;
