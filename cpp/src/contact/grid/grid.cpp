@@ -46,7 +46,7 @@ ContactGrid::ContactGrid(std::span<const Segment> surface, const ContactGridOpti
     add_panels(surface.subspan(first));
   band_size_ = wavenumber_.size();
   if (options_.window) add_beyond();
-  if (options_.pieces) add_macro_nodes(surface.subspan(first));
+  if (options_.pieces && has_macro()) add_macro_nodes(surface.subspan(first));
   macro_weights_.resize(wavenumber_.size());
   weight_ = Eigen::Map<const Eigen::VectorXd>(weights_.data(), static_cast<Eigen::Index>(band_size_));
   macro_weight_ = Eigen::Map<const Eigen::VectorXd>(macro_weights_.data(), static_cast<Eigen::Index>(size()));
