@@ -270,6 +270,18 @@ void LevelSolver::solve(double pressure, double velocity, double shift, double o
                      show(model_.rtol) + " was asked for");
 }
 
+/// How far two levels are apart at most, in mu, the area, kappa and their slopes, over each, and in running sums.
+double LevelSolver::change_between(const Level& coarse, const ContactSums& before, const Level& fine,
+                                   const ContactSums& now) const {
+  const double whole = now.friction * scale_,
+               running = apart(coarse.theory->part(), fine.theory->part(), fine.common_ends);
+  return std::max({difference(now.friction, before.friction), difference(now.share, before.share),
+                   difference(fine.theory->unit_g(), coarse.theory->unit_g()), difference(now.kappa, before.kappa),
+                   std::fabs(now.slope - before.slope), std::fabs(now.friction_slope - before.friction_slope),
+                   fine.grid->pieces() ? 0 : std::fabs(mean_place(fine) - mean_place(coarse)),
+                   whole > 0 ? running / whole : 0});
+}
+
 bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
   const bool by_pieces = &levels == &pieces_;
   const double root = 1 / (pressure * shift);
@@ -301,13 +313,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     if (number > 1) heed();
     Level& level = at_velocity(levels, number);
     const ContactSums now = solve_at(level, before.kappa);
-    const double running = apart(coarse->theory->part(), level.theory->part(), level.common_ends),
-                 whole = now.friction * scale_;
-    const double change =
-        std::max({difference(now.friction, before.friction), difference(now.share, before.share),
-                  difference(level.theory->unit_g(), coarse->theory->unit_g()), difference(now.kappa, before.kappa),
-                  std::fabs(now.slope - before.slope), std::fabs(now.friction_slope - before.friction_slope),
-                  by_pieces ? 0 : std::fabs(mean_place(level) - mean_place(*coarse)), whole > 0 ? running / whole : 0});
+    const double change = change_between(*coarse, before, level, now);
     const double lateral = across(level, now);
     double error = (by_pieces || window_ ? of_change : of_change_at_fronts) * change;
     if (rings_of_) {

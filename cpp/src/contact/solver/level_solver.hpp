@@ -89,6 +89,8 @@ class LevelSolver {
   void check_directions(const Level& level) const;
   static void take_common_ends(Level& fine, const Level& coarse);
   [[nodiscard]] static double mean_place(const Level& level);
+  [[nodiscard]] double change_between(const Level& coarse, const ContactSums& before, const Level& fine,
+                                      const ContactSums& now) const;
   [[nodiscard]] static double apart(const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine,
                                     const std::vector<std::array<Eigen::Index, 2>>& common_ends);
   [[nodiscard]] double beside_knots(const Level& level, const ContactSums& sums);
