@@ -174,7 +174,8 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   const double nu = scene_.model.poisson_ratio;
   result.arguments.push_back(one(2 * nu * nu / (1 - nu * nu) * (homogeneous + 2 * mu.of.scale * shift.pressure)));
   if (gamma_)
-    result.arguments.push_back(one((*gamma_)({mu.felt.columns.i1, mu.felt.columns.i2}, mu.of, mu.by_area, mu.g)));
+    result.arguments.push_back(
+        one((*gamma_)({{mu.felt.columns.i1.data(), n}, {mu.felt.columns.i2.data(), n}}, mu.of, mu.by_area, mu.g)));
   for (const double slope : shift.correction) result.arguments.push_back(one(-2 * mu.of.scale * slope));
   return result;
 }

@@ -31,9 +31,10 @@ struct Kernels {
   /// The same with dI1/dln w and dI2/dln w; no (w tau)^3 may overflow.
   void (*prony_slopes)(const PronyTerms& terms, const double* w, std::size_t n, double* i1, double* i2, double* slope1,
                        double* slope2);
-  /// The same with L_1 to L_count and K_1 to K_count (AngularHarmonics of asperity/rubber.hpp), a row of n each.
-  void (*prony_harmonics)(const PronyTerms& terms, const double* w, std::size_t n, std::size_t count, double* i1,
-                          double* i2, double* loss, double* square);
+  /// The same with L_1 to L_count and K_1 to K_count (AngularHarmonics of asperity/rubber.hpp), a row each, `stride`
+  /// behind each other.
+  void (*prony_harmonics)(const PronyTerms& terms, const double* w, std::size_t n, std::size_t stride,
+                          std::size_t count, double* i1, double* i2, double* loss, double* square);
   /// F at n values of G, n a multiple of `lanes`. Below 0 it goes on as it begins, with F = G.
   void (*contact_integral)(const ContactTable& table, const double* g, std::size_t n, double* f);
 };

@@ -178,28 +178,32 @@ bool PronySeries::angular_integrals(std::span<const double> w, std::span<double>
   if (count == 0) return angular_integrals(w, i1, i2, i1_outside);
   const double fastest = longest_ > 0 ? largest_x / longest_ : std::numeric_limits<double>::max();
   const PronyTerms terms{moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_};
-  const std::size_t n = w.size();
-  if (n % lanes == 0 && std::ranges::max(w) < fastest) {
-    require_room(w, i1, i2);
-    for (const double one : w) {
-      require_not_negative("angular_frequency", one);
-      check_fitted(one);
-    }
-    kernels().prony_harmonics(terms, w.data(), n, count, i1.data(), i2.data(), loss.data(), square.data());
-    return outside(w, i1, i2, i1_outside);
-  }
-  const bool any_outside = angular_integrals(w, i1, i2, i1_outside);
+  const std::size_t n = w.size(), whole = n - n % lanes;
   std::vector<double> first(count * lanes), second(count * lanes);
-  for (std::size_t i = 0; i < n; i += lanes) {
-    double at[lanes], of_i1[lanes], of_i2[lanes];
+  double at[lanes], of_i1[lanes], of_i2[lanes];
+  const auto take_lanes = [&](std::size_t i) {
     for (std::size_t k = 0; k < lanes; ++k) at[k] = std::fmin(w[std::min(i + k, n - 1)], fastest);
-    kernels().prony_harmonics(terms, at, lanes, count, of_i1, of_i2, first.data(), second.data());
+    kernels().prony_harmonics(terms, at, lanes, lanes, count, of_i1, of_i2, first.data(), second.data());
     for (std::size_t j = 0; j < count; ++j)
       for (std::size_t k = 0; k < std::min(lanes, n - i); ++k) {
         loss[j * n + i + k] = first[j * lanes + k];
         square[j * n + i + k] = second[j * lanes + k];
       }
+  };
+  if (std::ranges::max(w) < fastest) {
+    require_room(w, i1, i2);
+    for (const double one : w) {
+      require_not_negative("angular_frequency", one);
+      check_fitted(one);
+    }
+    kernels().prony_harmonics(terms, w.data(), whole, n, count, i1.data(), i2.data(), loss.data(), square.data());
+    if (whole < n) take_lanes(whole);
+    std::copy_n(of_i1, n - whole, i1.data() + whole);
+    std::copy_n(of_i2, n - whole, i2.data() + whole);
+    return outside(w, i1, i2, i1_outside);
   }
+  const bool any_outside = angular_integrals(w, i1, i2, i1_outside);
+  for (std::size_t i = 0; i < n; i += lanes) take_lanes(i);
   return any_outside;
 }
 
