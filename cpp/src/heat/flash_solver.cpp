@@ -41,44 +41,6 @@ constexpr double differences = 2, differences_with_rows = 4;
 /// What a grid of half the distances keeps of an error, at least: pieces of two nodes are of fourth order at best.
 constexpr double kept_of_a_kink = 1.0 / 16;
 
-/// The part of mu_H up to each end of a cell, and on from the roughness' end that of the edges of contacts. Places are
-/// wavenumbers, on pieces the G up to them at I2 = 1, which all levels have alike.
-std::vector<std::pair<double, double>> running_sums(const FlashMap& map) {
-  const HeatGrid& grid = map.grid();
-  const VectorXd part = map.contributions();
-  std::vector<std::pair<double, double>> sums;
-  double place = 0, sum = 0;
-  for (const HeatGrid::Cell& cell : grid.cells()) {
-    const auto first = static_cast<Index>(cell.first), count = static_cast<Index>(cell.count);
-    sum += part.segment(first, count).sum();
-    place = cell.rule ? cell.end : place + grid.weight().segment(first, count).sum();
-    sums.emplace_back(place, sum);
-  }
-  auto first = static_cast<Index>(grid.beyond().first);
-  for (std::size_t i = 0; i < grid.beyond().panel_nodes.size(); ++i) {
-    const auto count = static_cast<Index>(grid.beyond().panel_nodes[i]);
-    sum += part.segment(first, count).sum();
-    sums.emplace_back(place + grid.beyond().ends[i + 1], sum);
-    first += count;
-  }
-  return sums;
-}
-
-/// How far two levels are apart at most in the part of mu_H up to any end that both have: errors that cancel in the
-/// whole do not all the way.
-double most_apart(const FlashMap& coarse, const FlashMap& fine) {
-  constexpr double same = 1e-9;
-  const auto of_coarse = running_sums(coarse), of_fine = running_sums(fine);
-  double most = 0;
-  auto at = of_fine.begin();
-  for (const auto& [place, sum] : of_coarse) {
-    while (at != of_fine.end() && at->first < place * (1 - same)) ++at;
-    if (at == of_fine.end()) break;
-    if (at->first <= place * (1 + same)) most = std::fmax(most, std::fabs(at->second - sum));
-  }
-  return most;
-}
-
 /// From values at the temperature points of one grid to those at the points of another.
 MatrixXd carrying(const HeatGrid& from, const HeatGrid& to) {
   const auto n = static_cast<Index>(to.temperature_points().size());
@@ -257,7 +219,8 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
       before_.back() = {point.velocity, level - 1, found.theta};
     }
     found = polish(finer, found.theta, tangent_, levels_[level].up, levels_[level].down, tolerance);
-    double apart = most_apart(*map, finer);
+    double apart = most_apart(sums_of_cells(map->grid(), map->contributions()),
+                              sums_of_cells(finer.grid(), finer.contributions()), common_ends(map->grid(), finer.grid()));
     map = &finer;
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();
@@ -351,8 +314,8 @@ double FlashSolver::hysteresis_density(double wavenumber) const {
   return levels_[finest_].map->hysteresis_density(wavenumber, temperature_at(wavenumber));
 }
 
-std::vector<ContactGrid::PanelSum> FlashSolver::shares() const {
-  return levels_[finest_].grid->sums_of_panels(levels_[finest_].map->contributions());
+std::vector<PanelSum> FlashSolver::shares() const {
+  return sums_of_panels(*levels_[finest_].grid, levels_[finest_].map->contributions());
 }
 
 }  // namespace asperity

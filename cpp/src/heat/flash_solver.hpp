@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "contact/grid/cell_sums.hpp"
 #include "heat/fixed_point.hpp"
 #include "heat/flash_map.hpp"
 
@@ -72,7 +73,7 @@ class FlashSolver {
   /// Of the last point: T(q) [K], dmu_H/dln q, and mu_H from each panel with its ends [1/m].
   [[nodiscard]] double temperature_at(double wavenumber) const;
   [[nodiscard]] double hysteresis_density(double wavenumber) const;
-  [[nodiscard]] std::vector<ContactGrid::PanelSum> shares() const;
+  [[nodiscard]] std::vector<PanelSum> shares() const;
 
  private:
   struct Level {

@@ -341,21 +341,4 @@ void ContactGrid::nodes_to(const Place& place, std::vector<double>& wavenumber, 
   }
 }
 
-std::vector<ContactGrid::PanelSum> ContactGrid::sums_of_panels(const Eigen::VectorXd& part) const {
-  std::vector<PanelSum> result;
-  const auto add = [&](double lower, double upper, std::size_t first, std::size_t count) {
-    result.push_back(
-        {lower, upper, part.segment(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(count)).sum()});
-  };
-  double lower = foot_;
-  for (const Cell& cell : cells_) {
-    add(lower, cell.end, cell.first, cell.count);
-    lower = cell.end;
-  }
-  std::size_t first = beyond_.first;
-  for (std::size_t i = 0; i < beyond_.panel_nodes.size(); first += beyond_.panel_nodes[i++])
-    add(beyond_.ends[i], beyond_.ends[i + 1], first, beyond_.panel_nodes[i]);
-  return result;
-}
-
 }  // namespace asperity

@@ -94,11 +94,6 @@ class ContactGrid {
   [[nodiscard]] Place place_of(double wavenumber) const;
   /// The nodes of a rule from the lower end of the panel up to a place in it, with dG at I2 = 1 and unit load.
   void nodes_to(const Place& place, std::vector<double>& wavenumber, std::vector<double>& weight) const;
-  /// Sums of `part` over all panels in order, those of the edges behind the others, with their ends [1/m].
-  struct PanelSum {
-    double lower, upper, sum;
-  };
-  [[nodiscard]] std::vector<PanelSum> sums_of_panels(const Eigen::VectorXd& part) const;
 
   /// What PartialContact asks for. c is q^4 C with the factor of dG / dln q. The edges begin at q_e, where the
   /// roughness ends, inside of the band.

@@ -67,20 +67,21 @@ void LevelSolver::check_directions(const Level& level) const {
 }
 
 double LevelSolver::across(Level& level, const ContactSums& sums, const VectorXd& steering) const {
-  level.sideways.resize(0);
+  level.cell_across.resize(0);
   if (!rings_of_ || !(sums.friction > 0)) return 0;
   const ContactGrid& grid = *level.grid;
-  const VectorXd &stress = level.theory->stress(), &part = level.theory->part();
   const bool by_stress = window_ && grid.pieces();
   const auto n = static_cast<Index>(by_stress ? grid.band_size() : grid.size());
   const Eigen::Map<const Eigen::ArrayXd> lateral(level.across.data(), n), i1(level.i1.data(), n);
+  VectorXd sideways;
   if (by_stress)
-    level.sideways = grid.weight().array() * stress.array() * lateral;
+    sideways = grid.weight().array() * level.theory->stress().array() * lateral;
   else
-    level.sideways = (i1 != 0).select(part.head(n).array() * lateral / i1, 0) / scale_;
-  level.sideways.head(steering.size()).array() *= steering.array();
+    sideways = (i1 != 0).select(level.theory->part().head(n).array() * lateral / i1, 0) / scale_;
+  sideways.head(steering.size()).array() *= steering.array();
+  level.cell_across = sums_of_cells(grid, sideways);
   const double edges = by_stress ? sums.edges * grid.beyond().end->window * edges_.across : 0;
-  return edges + level.sideways.sum();
+  return edges + level.cell_across.sum();
 }
 
 }  // namespace asperity

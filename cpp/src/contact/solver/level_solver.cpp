@@ -39,6 +39,7 @@ constexpr std::size_t levels_before_front = 3;
 constexpr std::size_t finest = 6;           // level of nodes of panels: more than doubles hold
 constexpr std::size_t finest_at_knots = 3;  // further levels halve panels
 constexpr std::size_t most_levels = 10;
+constexpr Index between_ends = 16;   // nodes
 constexpr double least_rtol = 1e-7;  // lesser ones are not reached on pieces
 
 double difference(double a, double b) { return b == 0 ? 0 : std::fabs(a / b - 1); }
@@ -138,11 +139,9 @@ void LevelSolver::lay_out(Levels& levels, std::size_t number) {
   level.factors = waves_.factors(*level.grid);
   level.rings = waves_.rings(*level.grid);
   level.theory = contact_theory(model_, spectrum_, surface_, *level.grid, waves_.directions());
-  const std::vector<double>& q = level.grid->wavenumber();
-  level.place = Eigen::Map<const VectorXd>(q.data(), static_cast<Index>(q.size())).array().log();
   if (number == 0) return;
   if (!levels[number - 1].grid) lay_out(levels, number - 1);
-  take_common_ends(level, levels[number - 1]);
+  level.common_ends_with_coarse = common_ends(*levels[number - 1].grid, *level.grid, between_ends);
 }
 
 LevelSolver::Level& LevelSolver::at_velocity(Levels& levels, std::size_t number) {
@@ -172,52 +171,6 @@ LevelSolver::Level& LevelSolver::at_velocity(Levels& levels, std::size_t number)
   return level;
 }
 
-/// Some of the cells up to whose ends the surface is the same on both levels: of panels by q, of pieces by m.
-void LevelSolver::take_common_ends(Level& fine, const Level& coarse) {
-  constexpr double same = 1e-12;
-  constexpr std::size_t between = 16;  // nodes of the coarse one
-  const std::vector<ContactGrid::Cell>&of_coarse = coarse.grid->cells(), &of_fine = fine.grid->cells();
-  const auto end_of = [&](const ContactGrid& grid, const ContactGrid::Cell& cell, double& place) {
-    if (cell.rule) return place = cell.end - grid.foot();  // as ends are beside each other at a front
-    const auto first = static_cast<Index>(cell.first);
-    return place += grid.weight()[first] + grid.weight()[first + 1];
-  };
-  double place = 0, at = 0;
-  std::size_t k = 0, last = 0;
-  for (const ContactGrid::Cell& cell : of_coarse) {
-    (void)end_of(*coarse.grid, cell, place);
-    for (; k < of_fine.size() && at < place * (1 - same); ++k) (void)end_of(*fine.grid, of_fine[k], at);
-    const std::size_t end = cell.first + cell.count;
-    if (at > place * (1 + same) || end < last + between) continue;
-    last = end;
-    fine.common_ends.push_back(
-        {static_cast<Index>(end), static_cast<Index>(of_fine[k - 1].first + of_fine[k - 1].count)});
-  }
-}
-
-/// How far two levels are apart at most in a sum over nodes up to ends of pieces that both have: errors that cancel in
-/// the whole do not all the way.
-double LevelSolver::apart(const VectorXd& of_coarse, const VectorXd& of_fine,
-                          const std::vector<std::array<Index, 2>>& common_ends) {
-  if (of_coarse.size() == 0 || of_fine.size() == 0) return 0;
-  double most = 0, off = 0;
-  Index i = 0, k = 0;
-  for (const auto& [end, fine_end] : common_ends) {
-    off += of_fine.segment(k, fine_end - k).sum() - of_coarse.segment(i, end - i).sum();
-    i = end;
-    k = fine_end;
-    most = std::fmax(most, std::fabs(off));
-  }
-  return most;
-}
-
-/// Where friction comes from, as a mean of ln q: two levels may agree in the whole by chance, but not in that too.
-double LevelSolver::mean_place(const Level& level) {
-  const VectorXd& part = level.theory->part();
-  const double whole = part.sum();
-  return part.size() == level.place.size() && whole > 0 ? part.dot(level.place) / whole : 0;
-}
-
 /// The share of friction from frequencies outside of the measured range.
 double LevelSolver::outside_share(const Level& level, const ContactSums& sums) const {
   if (!(sums.friction > 0)) return 0;
@@ -229,6 +182,7 @@ double LevelSolver::outside_share(const Level& level, const ContactSums& sums) c
       sum += level.grid->weight()[i] * stress[i] * level.i1_outside[static_cast<std::size_t>(i)];
     return sum / sums.friction;
   }
+  if (level.i1_outside.empty() && !known_) return 0;
   const VectorXd& part = level.theory->part();
   for (std::size_t i = 0; i < level.grid->size(); ++i) {
     const bool held = i >= level.grid->band_size() && known_ && level.frequency[i] >= known_->highest;
@@ -270,16 +224,16 @@ void LevelSolver::solve(double pressure, double velocity, double shift, double o
                      show(model_.rtol) + " was asked for");
 }
 
-/// How far two levels are apart at most, in mu, the area, kappa and their slopes, over each, and in running sums.
+/// How far two levels are apart at most, in mu, the area, kappa and their slopes, over each, in sums over cells, and in
+/// where friction comes from: two levels may agree in the whole by chance, but not in all of them too.
 double LevelSolver::change_between(const Level& coarse, const ContactSums& before, const Level& fine,
                                    const ContactSums& now) const {
   const double whole = now.friction * scale_,
-               running = apart(coarse.theory->part(), fine.theory->part(), fine.common_ends);
+               apart = most_apart(coarse.theory->cell_part(), fine.theory->cell_part(), fine.common_ends_with_coarse);
   return std::max({difference(now.friction, before.friction), difference(now.share, before.share),
                    difference(fine.theory->unit_g(), coarse.theory->unit_g()), difference(now.kappa, before.kappa),
                    std::fabs(now.slope - before.slope), std::fabs(now.friction_slope - before.friction_slope),
-                   fine.grid->pieces() ? 0 : std::fabs(mean_place(fine) - mean_place(coarse)),
-                   whole > 0 ? running / whole : 0});
+                   std::fabs(fine.theory->mean_place() - coarse.theory->mean_place()), whole > 0 ? apart / whole : 0});
 }
 
 bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
@@ -317,8 +271,8 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     const double lateral = across(level, now);
     double error = (by_pieces || window_ ? of_change : of_change_at_fronts) * change;
     if (rings_of_) {
-      const double off =
-          std::fmax(apart(coarse->sideways, level.sideways, level.common_ends), std::fabs(lateral - across_before));
+      const double off = std::fmax(most_apart(coarse->cell_across, level.cell_across, level.common_ends_with_coarse),
+                                   std::fabs(lateral - across_before));
       error = of_change_with_rings * std::fmax(change, now.friction > 0 ? off / now.friction : 0) + needed_.rest;
       across_before = lateral;
     }
@@ -384,10 +338,10 @@ double LevelSolver::hysteresis_density(double wavenumber) const {
   return edges + mu_factor_ * rate * at.i1 * solved_->theory->stress_at(g(wavenumber), wavenumber, of_edges.i2);
 }
 
-std::vector<ContactGrid::PanelSum> LevelSolver::shares() const {
+std::vector<PanelSum> LevelSolver::shares() const {
   if (!solved_) return {};
-  std::vector<ContactGrid::PanelSum> result = solved_->grid->sums_of_panels(solved_->theory->part());
-  for (ContactGrid::PanelSum& one : result) one.sum *= mu_factor_ / scale_;
+  std::vector<PanelSum> result = sums_of_panels(*solved_->grid, solved_->theory->part());
+  for (PanelSum& one : result) one.sum *= mu_factor_ / scale_;
   return result;
 }
 

@@ -1,13 +1,13 @@
 // Area and hysteresis by one theory of the contact on levels of nodes, with a rubber of one temperature.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "contact/grid/cell_sums.hpp"
 #include "contact/grid/grid.hpp"
 #include "contact/grid/roughness_pieces.hpp"
 #include "contact/theory/edges.hpp"
@@ -53,22 +53,21 @@ class LevelSolver {
   [[nodiscard]] double stress(double wavenumber) const;
   [[nodiscard]] double hysteresis_density(double wavenumber) const;
   /// Panels in order, those of the edges behind the others; their hysteresis sums to the whole.
-  [[nodiscard]] std::vector<ContactGrid::PanelSum> shares() const;
+  [[nodiscard]] std::vector<PanelSum> shares() const;
 
  private:
   struct Level {
     std::shared_ptr<const RoughnessPieces> pieces;  // of a closed form, or its own where the waves' factors have kinks
     std::unique_ptr<ContactGrid> grid;
     std::unique_ptr<Theory> theory;
-    std::vector<std::array<Eigen::Index, 2>> common_ends;  // of cells of the level before, and of this one
-    Eigen::VectorXd place;                                 // ln q of nodes of panels
-    std::vector<ModulusFactors> factors;                   // none where all are 1
-    Rings rings;                                           // with directions
-    std::optional<RoughnessCells> from_next;               // to the first of panels, where the modulus is analytic
+    CommonEnds common_ends_with_coarse;       // the level before
+    std::vector<ModulusFactors> factors;      // none where all are 1
+    Rings rings;                              // with directions
+    std::optional<RoughnessCells> from_next;  // to the first of panels, where the modulus is analytic
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
     std::vector<double> across;            // of rings, as i1
-    Eigen::VectorXd sideways;              // parts of the force across, as the sum of friction
+    Eigen::VectorXd cell_across;           // the force across of cells, as the sum of friction
     std::vector<double> about;             // I2 with the directions of all roughness, for PartialContact
     std::vector<double> mean_i1, mean_i2;  // over directions, where the modulus has kinks
     std::vector<double> i1_outside;        // of unmeasured frequencies; of a Prony series on one level alone
@@ -87,12 +86,8 @@ class LevelSolver {
   void take_moduli_of_pieces(Level& level, bool first);
   void add_directions_of_pieces(Level& level, std::span<double> of_loss);
   void check_directions(const Level& level) const;
-  static void take_common_ends(Level& fine, const Level& coarse);
-  [[nodiscard]] static double mean_place(const Level& level);
   [[nodiscard]] double change_between(const Level& coarse, const ContactSums& before, const Level& fine,
                                       const ContactSums& now) const;
-  [[nodiscard]] static double apart(const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine,
-                                    const std::vector<std::array<Eigen::Index, 2>>& common_ends);
   [[nodiscard]] double beside_knots(const Level& level, const ContactSums& sums);
   [[nodiscard]] double outside_share(const Level& level, const ContactSums& sums) const;
   /// The force across of a level, as the sum of friction; with all directions of the roughness unless told how many.

@@ -79,9 +79,9 @@ double Solver::hysteresis_density(double wavenumber) const {
                  : gsl_solver_->hysteresis_density(wavenumber, model_.form, factor_);
 }
 
-std::vector<ContactGrid::PanelSum> Solver::shares() const {
+std::vector<PanelSum> Solver::shares() const {
   if (levels_) return levels_->shares();
-  std::vector<ContactGrid::PanelSum> result;
+  std::vector<PanelSum> result;
   const auto panels = gsl_solver_->panels();
   result.reserve(panels.size());
   for (std::size_t i = 0; i < panels.size(); ++i) result.push_back({panels[i][0], panels[i][1], by_panel_[i]});

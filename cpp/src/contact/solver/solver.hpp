@@ -39,7 +39,7 @@ class Solver {
   [[nodiscard]] double partial_area() const { return sums().share; }
   [[nodiscard]] double partial_area_error() const { return levels_->relative_error(); }
   [[nodiscard]] double stress(double wavenumber) const { return levels_->stress(wavenumber); }
-  [[nodiscard]] std::vector<ContactGrid::PanelSum> shares() const;
+  [[nodiscard]] std::vector<PanelSum> shares() const;
   /// Share of the hysteresis from strains beyond the last row of factors, to a hundredth.
   [[nodiscard]] double share_of_held_strains() const;
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "contact/grid/cell_sums.hpp"
 #include "contact/theory/partial_contact_rule.hpp"
 #include "contact/theory/partial_loops.hpp"
 #include "contact/theory/partial_root.hpp"
@@ -126,6 +127,9 @@ const ContactSums& PartialContactTheory::solve(double scale, double rtol, double
   part_.setZero(i2_.size());
   part_.head(n) = scale * weight_.cwiseProduct(ratio_.head(n)).cwiseProduct(stress_);
   part_.segment(n, count) = scale * edges_ * end_.window * in_tail_.cwiseProduct(ratio_.segment(n, count));
+  cell_part_ = sums_of_cells(grid_, part_);
+  const double band = part_.head(n).sum();
+  mean_place_ = band > 0 ? part_.head(n).dot(place_) / band : 0;
   return sums_;
 }
 

@@ -81,8 +81,10 @@ class PerssonTheory final : public Theory {
         contact_(model.form, factor_),
         area_g_(model, spectrum, surface, surface.back().b) {}
 
+  void take(const NodeModulus& modulus) override;
   const ContactSums& solve(double scale, double rtol, double start) override;
   void evaluate(double scale, std::optional<double> log_kappa) override;
+  [[nodiscard]] const VectorXd& part() override;
   [[nodiscard]] double area() override { return p_of(area_g_(g()), form_); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   void gradient(const ContactNumber& number, ContactGradient& result) override;
@@ -99,16 +101,20 @@ class PerssonTheory final : public Theory {
     return factor_ ? slope * (gamma + 3 * (1 - gamma) * (share * share)) : slope;
   }
   void integral_of(const double* g, Index n, double* f) const;
+  void integrate_to(double scale);
   void take_stress();
-  [[nodiscard]] VectorXd shares_of(const VectorXd& g) const;
+  void take_columns();
+  [[nodiscard]] VectorXd shares_of(const Eigen::Ref<const VectorXd>& g) const;
   void multiply_by_s(VectorXd& shares) const;
 
   Form form_;
   std::optional<SFunction> factor_;
   ContactIntegral contact_;
   AreaG area_g_;
-  VectorXd g_at_load_, share_, f_, measure_;
+  VectorXd g_at_load_, share_, f_;     // F less that where its panel begins
   std::vector<double> edge_, f_edge_;  // G and F at the ends of cells, at the load
+  bool part_is_of_load_ = false, columns_are_of_modulus_ = false;
+  MatrixXd columns_, end_columns_;  // of panels: from F at nodes, and from its rise, to friction and to that times ln q
 };
 
 /// F at values of G; their number is a multiple of `lanes`.
@@ -118,7 +124,7 @@ void PerssonTheory::integral_of(const double* g, Index n, double* f) const {
     if (g[i] < contact_.whole) f[i] = g[i];
 }
 
-VectorXd PerssonTheory::shares_of(const VectorXd& g) const {
+VectorXd PerssonTheory::shares_of(const Eigen::Ref<const VectorXd>& g) const {
   VectorXd result = g.cwiseMax(0);  // an interpolated G may be below 0 at the first nodes
   if (form_ == Form::exact)
     contact_shares(result.data(), static_cast<std::size_t>(result.size()), result.data());
@@ -139,45 +145,119 @@ void PerssonTheory::take_stress() {
   multiply_by_s(stress_);
 }
 
-void PerssonTheory::evaluate(double scale, std::optional<double> /*log_kappa*/) {
+void PerssonTheory::take(const NodeModulus& modulus) {
+  Theory::take(modulus);
+  columns_are_of_modulus_ = false;
+}
+
+/// G and F at the nodes and at the ends of cells at a load.
+void PerssonTheory::integrate_to(double scale) {
   scale_ = scale;
-  const auto& cells = grid_.cells();
-  const Index n = g_.size();
+  part_is_of_load_ = false;
   edge_.resize((g_edge_.size() + lanes - 1) / lanes * lanes, 1.0);
   for (std::size_t i = 0; i < g_edge_.size(); ++i) edge_[i] = scale * g_edge_[i];
   f_edge_.resize(edge_.size());
-  integral_of(edge_.data(), static_cast<Index>(edge_.size()), f_edge_.data());
-  part_.resize(i2_.size());
-  part_.tail(i2_.size() - n).setZero();
+  integral_of(edge_.data(), std::ssize(edge_), f_edge_.data());
+  g_at_load_ = scale * g_;
   if (grid_.pieces()) {
-    g_at_load_ = scale * g_;
     take_stress();
-    for (Index i = 0; i + 1 < n; i += 2) {
-      const auto end = static_cast<std::size_t>(i / 2 + 1);
-      const double first = grid_.weight()[i] * i2_[i] * stress_[i],
-                   second = grid_.weight()[i + 1] * i2_[i + 1] * stress_[i + 1];
-      const double sum = first + second, factor = sum > 0 ? (f_edge_[end] - f_edge_[end - 1]) / sum : 0;
-      part_[i] = ratio_[i] * (first * factor);
-      part_[i + 1] = ratio_[i + 1] * (second * factor);
-    }
-  } else {
-    g_at_load_ = scale * g_;
-    f_.resize(n);
-    measure_.resize(n);
-    integral_of(g_at_load_.data(), n, f_.data());
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const auto first = static_cast<Index>(cells[c].first);
-      const auto count = static_cast<Index>(cells[c].count);
-      const double lower = f_edge_[c], rise = f_edge_[c + 1] - lower;
-      const LegendreRule& rule = *cells[c].rule;
-      f_.segment(first, count).array() -= lower;
-      auto measure = measure_.segment(first, count);
-      measure = -slopes_of(rule).transpose().lazyProduct(f_.segment(first, count));
-      measure += rise * Eigen::Map<const VectorXd>(rule.at_upper, count);
-    }
-    part_.head(n) = ratio_.head(n).cwiseProduct(measure_);
+    return;
   }
+  f_.resize(g_.size());
+  integral_of(g_at_load_.data(), f_.size(), f_.data());
+  for (std::size_t c = 0; c < grid_.cells().size(); ++c) {
+    const ContactGrid::Cell& cell = grid_.cells()[c];
+    f_.segment(static_cast<Index>(cell.first), static_cast<Index>(cell.count)).array() -= f_edge_[c];
+  }
+}
+
+const VectorXd& PerssonTheory::part() {
+  if (part_is_of_load_) return part_;
+  part_is_of_load_ = true;
+  part_.setZero(i2_.size());
+  if (grid_.pieces()) {  // the nodes share what F rises
+    const VectorXd& weight = grid_.weight();
+    for (std::size_t c = 0; c < grid_.cells().size(); ++c) {
+      const auto i = static_cast<Index>(2 * c), k = i + 1;
+      const double first = weight[i] * i2_[i] * stress_[i], second = weight[k] * i2_[k] * stress_[k];
+      const double sum = first + second, rise = f_edge_[c + 1] - f_edge_[c];
+      const double factor = sum > 0 ? rise / sum : 0;
+      part_[i] = ratio_[i] * (first * factor);
+      part_[k] = ratio_[k] * (second * factor);
+    }
+    return part_;
+  }
+  for (std::size_t c = 0; c < grid_.cells().size(); ++c) {
+    const ContactGrid::Cell& cell = grid_.cells()[c];
+    const auto first = static_cast<Index>(cell.first), count = static_cast<Index>(cell.count);
+    auto part = part_.segment(first, count);
+    part = (f_edge_[c + 1] - f_edge_[c]) * Eigen::Map<const VectorXd>(cell.rule->at_upper, count);
+    part -= slopes_of(*cell.rule).transpose().lazyProduct(f_.segment(first, count));
+    part.array() *= ratio_.segment(first, count).array();
+  }
+  return part_;
+}
+
+void PerssonTheory::evaluate(double scale, std::optional<double> /*log_kappa*/) {
+  integrate_to(scale);
+  (void)part();
   macro_ = p_of(scale * g_macro_, form_);
+}
+
+/// Any number of loads may follow, to which friction is linear in F.
+void PerssonTheory::take_columns() {
+  columns_are_of_modulus_ = true;
+  const auto& cells = grid_.cells();
+  const Index n = g_.size();
+  const VectorXd moment = ratio_.head(n).cwiseProduct(place_);
+  columns_.resize(n, 2);
+  end_columns_.resize(std::ssize(cells), 2);
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
+    const LegendreRule& rule = *cells[c].rule;
+    for (Index i = 0; i < count; i += lanes) {
+      using Some = Eigen::Array<double, lanes, 1>;
+      Some of_friction = Some::Zero(), of_place = Some::Zero();
+      for (Index j = 0; j < count; ++j) {
+        const Some slope = Eigen::Map<const Some>(&rule.slope[j][i]);
+        of_friction += ratio_[first + j] * slope;
+        of_place += moment[first + j] * slope;
+      }
+      columns_.col(0).segment<lanes>(first + i) = of_friction;
+      columns_.col(1).segment<lanes>(first + i) = of_place;
+    }
+    const Eigen::Map<const VectorXd> at_upper(rule.at_upper, count);
+    end_columns_.row(static_cast<Index>(c)) << at_upper.dot(ratio_.segment(first, count)),
+        at_upper.dot(moment.segment(first, count));
+  }
+}
+
+const ContactSums& PerssonTheory::solve(double scale, double /*rtol*/, double /*start*/) {
+  integrate_to(scale);
+  const auto cells = std::ssize(grid_.cells());
+  cell_part_.resize(cells);
+  if (grid_.pieces()) {
+    (void)part();
+    for (Index c = 0; c < cells; ++c) cell_part_[c] = part_[2 * c] + part_[2 * c + 1];
+  } else {
+    if (!columns_are_of_modulus_) take_columns();
+    double by_place = 0;
+    for (Index c = 0; c < cells; ++c) {
+      const auto at = static_cast<std::size_t>(c);
+      const ContactGrid::Cell& cell = grid_.cells()[at];
+      const auto first = static_cast<Index>(cell.first), count = static_cast<Index>(cell.count);
+      const double rise = f_edge_[at + 1] - f_edge_[at];
+      const auto f = f_.segment(first, count);
+      cell_part_[c] = rise * end_columns_(c, 0) - columns_.col(0).segment(first, count).dot(f);
+      by_place += rise * end_columns_(c, 1) - columns_.col(1).segment(first, count).dot(f);
+    }
+    const double whole = cell_part_.sum();
+    mean_place_ = whole > 0 ? by_place / whole : 0;
+  }
+  sums_.slope = 1;
+  sums_.variance = g_edge_.back();
+  sums_.friction = cell_part_.sum() / scale;
+  return sums_;
 }
 
 /// What a panel's rule on P S dG is off the rise of F, times half of what R changes between two nodes there: by parts,
@@ -185,7 +265,6 @@ void PerssonTheory::evaluate(double scale, std::optional<double> /*log_kappa*/) 
 double PerssonTheory::front_misfit() {
   if (grid_.pieces()) return 0;
   constexpr double begins = 0.02, ends = 10;  // of G: P changes between
-  take_stress();
   double result = 0;
   for (std::size_t c = 0; c < grid_.cells().size(); ++c) {
     if (!(edge_[c] < ends && edge_[c + 1] > begins)) continue;
@@ -200,20 +279,13 @@ double PerssonTheory::front_misfit() {
       apart = std::fmax(apart, std::fabs(ratio[i] - ratio[i - 1]));
     }
     if (gaps < 2) apart = ratio.maxCoeff() - ratio.minCoeff();
-    const double rule = (grid_.weight().segment(first, count).array() * i2_.segment(first, count).array() *
-                         stress_.segment(first, count).array())
-                            .sum();
+    VectorXd stress = shares_of(g);
+    multiply_by_s(stress);
+    const double rule =
+        (grid_.weight().segment(first, count).array() * i2_.segment(first, count).array() * stress.array()).sum();
     result += std::fabs((f_edge_[c + 1] - f_edge_[c]) / scale_ - rule) * apart / 2;
   }
   return result;
-}
-
-const ContactSums& PerssonTheory::solve(double scale, double /*rtol*/, double /*start*/) {
-  evaluate(scale, {});
-  sums_.slope = 1;
-  sums_.variance = g_edge_.back();
-  sums_.friction = part_.sum() / scale;
-  return sums_;
 }
 
 void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& result) {

@@ -59,7 +59,10 @@ struct ContactGradient {
 /// mu_H is 4 (1 - nu^2) sigma0 times the sum of all parts, R dF of Eq. 22 or R times the stress of PartialContact.
 class Theory {
  public:
-  explicit Theory(const ContactGrid& grid) : grid_(grid) {}
+  explicit Theory(const ContactGrid& grid)
+      : grid_(grid),
+        place_(Eigen::Map<const Eigen::ArrayXd>(grid.wavenumber().data(), static_cast<Eigen::Index>(grid.band_size()))
+                   .log()) {}
   Theory(const Theory&) = delete;
   Theory(Theory&&) = delete;
   Theory& operator=(const Theory&) = delete;
@@ -97,7 +100,11 @@ class Theory {
   /// Of the last evaluation or solution: the share of the directions of roughness that the stress of each of the band's
   /// nodes has, by which the force across is less; none where all.
   [[nodiscard]] virtual Eigen::VectorXd steering() const { return {}; }
-  [[nodiscard]] const Eigen::VectorXd& part() const { return part_; }
+  [[nodiscard]] virtual const Eigen::VectorXd& part() { return part_; }
+  /// Of the last solution: the sums of `part` over cells (contact/grid/cell_sums.hpp), if they are at hand, and the
+  /// mean ln q of friction in the band, on panels.
+  [[nodiscard]] const Eigen::VectorXd& cell_part() const { return cell_part_; }
+  [[nodiscard]] double mean_place() const { return mean_place_; }
   [[nodiscard]] virtual double area() = 0;                    // A / A0 at q1
   [[nodiscard]] double macro_area() const { return macro_; }  // P at q_m
   [[nodiscard]] double g() const { return scale_ * unit_g(); }
@@ -125,9 +132,10 @@ class Theory {
   void back_through_macro(double by_g, ContactGradient& result) const;
 
   const ContactGrid& grid_;
-  double scale_ = 0, macro_ = 1;
+  Eigen::VectorXd place_;  // ln q of the band's nodes
+  double scale_ = 0, macro_ = 1, mean_place_ = 0;
   ContactSums sums_;
-  Eigen::VectorXd i2_, ratio_, part_, stress_;
+  Eigen::VectorXd i2_, ratio_, part_, cell_part_, stress_;
   // at unit load: at the nodes of the band, at q_m and at the ends of cells
   Eigen::VectorXd g_;
   double g_macro_ = 0;
