@@ -11,6 +11,7 @@
 #include "contact/correction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/visit.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -54,8 +55,10 @@ void validate_peaks(const LocalPeaks& peaks) {
 template <class GreenwoodWilliamsonKind>
 double macro_wavenumber(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum) {
   if (s.q0) return *s.q0;
-  const auto* self_affine = std::get_if<SelfAffineSpectrum>(&spectrum);
-  return self_affine && self_affine->rolloff ? *self_affine->rolloff : band(spectrum)[0];
+  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
+  const std::optional<double> law_from =
+      table ? table->surface().law_from : std::get<SelfAffineSpectrum>(spectrum).rolloff;
+  return law_from.value_or(band(spectrum)[0]);
 }
 
 /// E* of the macro-asperities.

@@ -31,6 +31,11 @@ bool lacks_q0(const Correction& correction) {
   return c && !c->q0;
 }
 
+bool is_measured(const Spectrum& spectrum) {
+  const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
+  return table && !table->surface().law_from;
+}
+
 /// Wavenumbers of a measured spectrum that are flagged for the window (up to the first) or for Nyquist (from the second
 /// on); 0 and infinity where none is.
 std::array<double, 2> flagged_ends(const Spectrum& spectrum) {
@@ -100,7 +105,7 @@ Notes::Notes(const Spectrum& spectrum, const Rubber& rubber, const Correction& c
       by_sliding_(std::holds_alternative<PartialContact>(correction)),
       ridges_(is_directional(spectrum)),
       plain_(std::holds_alternative<NoCorrection>(correction)),
-      lowest_bin_(std::holds_alternative<TabulatedSpectrum>(spectrum) &&
+      lowest_bin_(is_measured(spectrum) &&
                   (lacks_q0<GreenwoodWilliamson>(correction) || lacks_q0<PeaksThenGreenwoodWilliamson>(correction))) {}
 
 void Notes::add(const Shift& shift, double velocity, const ValidityFlags& flags) {

@@ -92,7 +92,8 @@ double GammaGradient::operator()(const NodeModulus& modulus, const ContactGradie
   if (!without_) return result;
   without_->start({});
   without_->take(modulus);
-  if (without_->unit_g() > 0) without_->evaluate(g / without_->unit_g(), {});
+  if (!(without_->unit_g() > 0)) return result;
+  without_->evaluate(g / without_->unit_g(), {});
   return result + of.ratio.sum() - of.by_part.dot(without_->part());
 }
 

@@ -151,7 +151,7 @@ void GradientChain::add_law(const MuSlopes& mu, const ShiftGradient& shift, cons
   const bool rolled = scene_.law->rolloff.has_value();
   if (rolled) slopes[2] -= slopes[4];
   if (shift.along != 0) slopes[2] -= shift.along * by_frequency_of(mu, shift);
-  slopes[rolled && !rings_ ? 4 : 2] += by_shift * shift.wavenumber;
+  slopes[rolled ? 4 : 2] += by_shift * shift.wavenumber;
   if (rings_) slopes.push_back(-rings_->turned(by_rings_));
   for (const double slope : slopes) result.arguments.push_back(VectorXd::Constant(1, slope));
 }

@@ -11,6 +11,7 @@
 #include "numerics/interpolation.hpp"
 #include "numerics/rounding.hpp"
 #include "spectrum/segments.hpp"
+#include "spectrum/table_surface.hpp"
 
 namespace asperity {
 
@@ -206,7 +207,9 @@ TabulatedSpectrum table_of(const SelfAffineSpectrum& s) {
       harmonics.cosine.push_back(row[m] * std::cos(angle));
       harmonics.sine.push_back(row[m] * std::sin(angle));
     }
-  return {std::move(q), std::move(c), {}, std::move(harmonics)};
+  TabulatedSpectrum result(std::move(q), std::move(c), {}, std::move(harmonics));
+  result.surface().law_from = from;
+  return result;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct RingMeans {
 
 class TableSurface {
  public:
+  /// Of rows that a law was written out in: its roll-off, or where it begins [1/m].
+  std::optional<double> law_from;
   /// All of them take the table that this is kept with.
   std::span<const Segment> segments(const TabulatedSpectrum& table);
   double rms_slope(const TabulatedSpectrum& table);

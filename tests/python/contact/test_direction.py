@@ -16,6 +16,7 @@ from asperity import (
 from helpers import table_rows
 from helpers.cases import case
 from helpers.ridges import RUBBER, C, Q, ridges, rows
+from helpers.rubbers import tread
 
 VISCOUS = PronySeries(equilibrium_modulus=1e6, moduli=[1e6], relaxation_times=[1e-13])
 
@@ -87,6 +88,27 @@ def test_a_constant_loss_modulus_has_two_thirds_along_and_four_across(theta):
     found = asperity.friction(rows(a), flat, **at, direction=theta)
     assert found.mu / mean == pytest.approx(1 + 2 * a / 3 * np.cos(2 * theta), rel=1e-6)
     assert found.lateral / mean == pytest.approx(-4 * a / 3 * np.sin(2 * theta), abs=2e-6)
+
+
+@pytest.mark.parametrize("rolloff", [None, 6e3])
+@pytest.mark.parametrize("heat", [False, True])
+def test_faint_ridges_have_the_macro_asperities_of_none(rolloff, heat):
+    """Greenwood-Williamson takes the roll-off of a law, or where it begins, with directions too."""
+    at = {"pressure": 2e5, "velocity": 1e-2}
+    if heat:
+        law = asperity.WLF(c1=8.86, c2=101.6, reference_temperature=293.15)
+        at |= {"shift": law, "temperature": 293.15, "heating": tread()}
+
+    def found(ratio):
+        law = {"rms_height": 1e-4, "hurst": 0.8, "q0": 1e3, "q1": 2e5, "rolloff": rolloff}
+        tops = asperity.GreenwoodWilliamson(z_max=3e-4, z_min=-3e-4)
+        spectrum = SelfAffineSpectrum(**law, axis_ratio=ratio)
+        return asperity.friction(spectrum, RUBBER, **at, correction=tops)
+
+    faint, none = found(1 + 1e-7), found(1.0)
+    assert faint.mu == pytest.approx(none.mu, rel=3e-6)
+    assert faint.shift_factor == pytest.approx(none.shift_factor, rel=1e-6)
+    assert [note.code for note in faint.notes] == [note.code for note in none.notes]
 
 
 @pytest.mark.parametrize("correction", [None, PartialContact()])

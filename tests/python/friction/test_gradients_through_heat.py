@@ -65,7 +65,7 @@ SCENES = {
     "strain on ridges": (GROUND, SERIES, {"strain_factors": STRAIN, "correction": PARTIAL}),
     "heat of ridges": (GROUND, MEASURED, {"heating": HEATING, "correction": PARTIAL}),
     "heat of rolled ridges": (ROLLED, SERIES, {"heating": HEATING, "correction": PARTIAL}),
-    "heat of all ridges": (RIDGES, SERIES, {"heating": SMALL, "correction": TOPS}),
+    "heat of all ridges": (ROLLED, SERIES, {"heating": SMALL, "correction": TOPS}),
     "heat and strain": (ROAD, SERIES, {"heating": HEATING, "strain_factors": STRAIN}),
 }
 NAMES = {
