@@ -48,7 +48,8 @@ constexpr Tables partial_contact{
 /// to 6 in all directions, q1 / q0 from 4 to 16, p* from 0.02 to 0.27. Wider bands are taken to be no better than
 /// these.
 constexpr BySpeed ridges_without_correction{0.161, 0.528, 0.831}, ridges_partial_contact{0.057, 0.068, 0.045};
-constexpr double strongest = 0.923;  // |<exp 2 i phi>| of the slope variance, axis ratio 6
+constexpr double strongest = 0.923;    // |<exp 2 i phi>| of the slope variance, axis ratio 6
+constexpr double faintest = 5.0 / 13;  // axis ratio 1.5: of less the contacts without ridges tell the range
 constexpr double lightest_on_ridges = 0.02, heaviest_on_ridges = 0.3, narrowest_on_ridges = 4;
 constexpr double loads[] = {0.02, 0.06, 0.2}, lightest = 0.0015, lightest_of_narrow = 0.009, heaviest = 0.6;
 constexpr double lightest_on_road = 0.005, heaviest_on_road = 0.3;
@@ -87,12 +88,14 @@ ModelError::ModelError(const Correction& correction, const Spectrum& spectrum, c
   if (!is_within(bandwidth, narrowest, widest)) return;
   const Tables* const tables = tables_of(correction);
   if (!tables) return;
-  const TabulatedSpectrum* const ridges = harmonics_of(spectrum);
-  if (ridges) {
-    const Rings mean = Directions(*ridges, 0).mean();
+  bool ridges = false;
+  if (const TabulatedSpectrum* const directional = harmonics_of(spectrum)) {
+    const Rings mean = Directions(*directional, 0).mean();
+    const double strength = std::hypot(mean.along[0], mean.across[0]);
     const bool partial = std::holds_alternative<PartialContact>(correction);
-    if (!(partial || tables == &no_correction) || std::hypot(mean.along[0], mean.across[0]) > strongest) return;
-    if (!is_within(bandwidth, narrowest_on_ridges, road)) return;
+    if (!(partial || tables == &no_correction) || strength > strongest) return;
+    ridges = !is_below(strength, faintest);
+    if (ridges && !is_within(bandwidth, narrowest_on_ridges, road)) return;
     at_least_ = partial ? ridges_partial_contact : ridges_without_correction;
   }
   if (is_above(bandwidth, road)) {
@@ -128,9 +131,9 @@ double ModelError::operator()(double g) const {
   const double load = 1 / std::sqrt(8 * g);
   if (!known_ || !(load >= lightest_ && load <= heaviest_)) return unknown;
   const auto row = static_cast<std::size_t>(regime_);
-  if (by_speed_) return by_speed_[row];
   const std::size_t column = load < loads[0] ? 0 : load < loads[1] ? 1 : load < loads[2] ? 2 : 3;
-  return at_least_ ? std::fmax(by_load_[row][column], at_least_[row]) : by_load_[row][column];
+  const double without = by_speed_ ? by_speed_[row] : by_load_[row][column];
+  return at_least_ ? std::fmax(without, at_least_[row]) : without;
 }
 
 }  // namespace asperity

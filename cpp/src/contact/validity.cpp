@@ -213,7 +213,7 @@ std::vector<Diagnostic> Notes::texts(bool heated) const {
         "unknown-model-error",
         {"the model error of PartialContact is not known at some points: exact sliding contacts were solved "
          "for q1/q0 from 5 to 128 and sigma0 / (E* h') from 0.0015 to 0.6, some for q1/q0 from 3 to 5, and from 128 to "
-         "16384 with loads from 0.005 to 0.3; over ridges of axis ratios to 6 with loads from 0.02 to 0.3"},
+         "16384 with loads from 0.005 to 0.3; over ridges of axis ratios 1.5 to 6 with loads from 0.02 to 0.3"},
         {"compare with ScanContact on the scan itself"}));
   if (worse_)
     result.push_back(fatal("area-further-off",

@@ -49,6 +49,15 @@ def test_the_direction_is_x_by_default():
         assert inspect.signature(function).parameters["direction"].default == 0.0
 
 
+@pytest.mark.parametrize(("ratio", "known"), [(1.0, True), (1.3, True), (1.7, False)])
+def test_faint_ridges_are_known_at_the_loads_of_contacts_without(ratio, known):
+    spectrum = SelfAffineSpectrum(rms_height=1e-4, hurst=0.8, q0=2e3, q1=2e5, axis_ratio=ratio)
+    found = asperity.friction(
+        spectrum, RUBBER, pressure=5e4, velocity=1e-2, correction=PartialContact()
+    )
+    assert np.isfinite(found.model_error) == known
+
+
 def test_stronger_ridges_than_any_contact_had_are_told():
     at = {"pressure": 2e5, "velocity": 1e-2, "correction": PartialContact()}
     law = {"rms_height": 1e-4, "hurst": 0.8, "q0": 2e3, "q1": 2e4}
