@@ -13,10 +13,9 @@ namespace {
 /// seconds, no watch could be heeded.
 void transform_columns(std::vector<std::complex<double>>& modes, Grid shape, Direction direction) {
   const std::size_t ny = shape[0], half = shape[1] / 2 + 1;
-  constexpr std::size_t together = 8;  // two cache lines of each row
-  // columns behind each other in memory, a cache line apart from a power of two
-  const std::size_t length = Scratch<std::complex<double>>::aligned(ny) + 8;
-  const ComplexTransform<double> along_columns(ny, together, length, direction);
+  const ColumnsTransform<double> along_columns(ny, direction);
+  constexpr std::size_t together = ColumnsTransform<double>::width;
+  const std::size_t length = along_columns.distance();
   const Scratch<std::complex<double>> in(length * together), out(length * together);
   std::fill_n(in.data(), length * together, std::complex<double>());
   for (std::size_t first = 0; first < half; first += together) {

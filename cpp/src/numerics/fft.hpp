@@ -37,27 +37,18 @@ class RealTransform {  // n real numbers to n / 2 + 1 modes, or back; the input 
   std::vector<std::complex<T>> twiddles_;  // where it goes by a complex transform of half the length
 };
 
-template <class T>
-class ComplexTransform {  // `count` transforms at once, `distance` from one to the next; the input is overwritten
- public:
-  ComplexTransform(std::size_t n, std::size_t count, std::size_t distance, Direction direction = Direction::forward);
-  void operator()(std::complex<T>* in, std::complex<T>* out) const;
-
- private:
-  std::size_t count_, distance_;
-  Direction direction_;
-  std::shared_ptr<void> plan_;
-};
-
-/// Transforms of `width` columns of n modes that lie side by side, a cache line a row, in place.
+/// Transforms of `width` columns of n modes, as many as a cache line has of each row; the input is overwritten.
 template <class T>
 class ColumnsTransform {
  public:
   static constexpr std::size_t width = 64 / sizeof(std::complex<T>);
-  ColumnsTransform(std::size_t n, Direction direction);
-  void operator()(std::complex<T>* columns) const;
+  explicit ColumnsTransform(std::size_t n, Direction direction = Direction::forward);
+  /// From one column to the next: they lie behind each other in memory, a cache line apart from a power of two.
+  [[nodiscard]] std::size_t distance() const { return distance_; }
+  void operator()(std::complex<T>* in, std::complex<T>* out) const;
 
  private:
+  std::size_t distance_;
   Direction direction_;
   std::shared_ptr<void> plan_;
 };

@@ -176,34 +176,19 @@ void RealTransform<T>::operator()(std::complex<T>* in, T* out) const {
 }
 
 template <class T>
-ColumnsTransform<T>::ColumnsTransform(std::size_t n, Direction direction) : direction_(direction) {
-  const Scratch<std::complex<T>> columns(n * width);
+ColumnsTransform<T>::ColumnsTransform(std::size_t n, Direction direction)
+    : distance_(Scratch<std::complex<T>>::aligned(n) + 8), direction_(direction) {
+  const Scratch<std::complex<T>> in(distance_ * width), out(distance_ * width);
   plan_ = planned<Fftw<T>>([&] {
-    const int length = side(n), together = static_cast<int>(width);
-    return Fftw<T>::many(1, &length, together, raw(columns.data()), nullptr, together, 1, raw(columns.data()), nullptr,
-                         together, 1, direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD, FFTW_ESTIMATE);
-  });
-}
-
-template <class T>
-void ColumnsTransform<T>::operator()(std::complex<T>* columns) const {
-  Fftw<T>::run(static_cast<typename Fftw<T>::Plan>(plan_.get()), raw(columns), raw(columns));
-}
-
-template <class T>
-ComplexTransform<T>::ComplexTransform(std::size_t n, std::size_t count, std::size_t distance, Direction direction)
-    : count_(count), distance_(distance), direction_(direction) {
-  const Scratch<std::complex<T>> in(distance * count), out(distance * count);
-  plan_ = planned<Fftw<T>>([&] {
-    const int length = side(n), apart = side(distance);
-    return Fftw<T>::many(1, &length, side(count), raw(in.data()), nullptr, 1, apart, raw(out.data()), nullptr, 1, apart,
+    const int length = side(n), apart = side(distance_);
+    return Fftw<T>::many(1, &length, side(width), raw(in.data()), nullptr, 1, apart, raw(out.data()), nullptr, 1, apart,
                          direction == Direction::forward ? FFTW_FORWARD : FFTW_BACKWARD,
                          FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
   });
 }
 
 template <class T>
-void ComplexTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) const {
+void ColumnsTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) const {
   Fftw<T>::run(static_cast<typename Fftw<T>::Plan>(plan_.get()), raw(in), raw(out));
 }
 
@@ -211,7 +196,5 @@ template class RealTransform<float>;
 template class RealTransform<double>;
 template class ColumnsTransform<float>;
 template class ColumnsTransform<double>;
-template class ComplexTransform<float>;
-template class ComplexTransform<double>;
 
 }  // namespace asperity

@@ -35,8 +35,6 @@ struct Plan {
   virtual void rows(const T*, std::size_t, T*, std::size_t) const {}
   /// As many columns of complex numbers as a register has lanes, `apart` T's from one to the next.
   virtual void apart(const T*, T*, std::size_t, Direction) const {}
-  /// The same number of columns that lie side by side, in place.
-  virtual void side_by_side(T*, Direction) const {}
 };
 
 #define ASPERITY_LOOPS "numerics/pocketfft_loops.inc"
@@ -91,30 +89,16 @@ void RealTransform<T>::operator()(std::complex<T>* in, T* out) const {
 
 template <class T>
 ColumnsTransform<T>::ColumnsTransform(std::size_t n, Direction direction)
-    : direction_(direction), plan_(ASPERITY_PLAN(Complex, n)) {}
+    : distance_(Scratch<std::complex<T>>::aligned(n) + 8), direction_(direction), plan_(ASPERITY_PLAN(Complex, n)) {}
 
 template <class T>
-void ColumnsTransform<T>::operator()(std::complex<T>* columns) const {
-  plan_of<T>(plan_).side_by_side(numbers(columns), direction_);
-}
-
-template <class T>
-ComplexTransform<T>::ComplexTransform(std::size_t n, std::size_t count, std::size_t distance, Direction direction)
-    : count_(count), distance_(distance), direction_(direction), plan_(ASPERITY_PLAN(Complex, n)) {}
-
-template <class T>
-void ComplexTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) const {
-  constexpr std::size_t lanes = ColumnsTransform<T>::width;
-  for (std::size_t column = 0; column < count_; column += lanes)
-    plan_of<T>(plan_).apart(numbers(in + column * distance_), numbers(out + column * distance_), 2 * distance_,
-                            direction_);
+void ColumnsTransform<T>::operator()(std::complex<T>* in, std::complex<T>* out) const {
+  plan_of<T>(plan_).apart(numbers(in), numbers(out), 2 * distance_, direction_);
 }
 
 template class RealTransform<float>;
 template class RealTransform<double>;
 template class ColumnsTransform<float>;
 template class ColumnsTransform<double>;
-template class ComplexTransform<float>;
-template class ComplexTransform<double>;
 
 }  // namespace asperity

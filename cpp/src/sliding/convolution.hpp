@@ -6,7 +6,6 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
-#include <cstring>
 #include <vector>
 
 #include "asperity/watch.hpp"
@@ -14,20 +13,15 @@
 
 namespace asperity {
 
-/// A factor for each mode of a real grid, in the order in which a Convolution takes them: columns in slabs of a cache
-/// line each, row by row.
+/// A factor for each mode of a real grid, column by column.
 template <class T>
 class Factor {
  public:
-  explicit Factor(Grid shape) : rows_(shape[0]), factors_((shape[1] / 2 / width + 1) * width * shape[0]) {}
-  void set(std::size_t y, std::size_t x, std::complex<T> factor) {
-    factors_[(x / width * rows_ + y) * width + x % width] = factor;
-  }
-  /// Of the slab that begins with column `first`.
-  [[nodiscard]] const std::complex<T>* slab(std::size_t first) const { return factors_.data() + first * rows_; }
+  explicit Factor(Grid shape) : rows_(shape[0]), factors_((shape[1] / 2 + 1) * shape[0]) {}
+  void set(std::size_t y, std::size_t x, std::complex<T> factor) { factors_[x * rows_ + y] = factor; }
+  [[nodiscard]] const std::complex<T>* column(std::size_t x) const { return factors_.data() + x * rows_; }
 
  private:
-  static constexpr std::size_t width = ColumnsTransform<T>::width;
   std::size_t rows_;
   std::vector<std::complex<T>> factors_;
 };
@@ -41,13 +35,13 @@ class Convolution {
         pitch_(Scratch<std::complex<T>>::aligned(half_) + 8),
         forward_row_(shape[1]),
         backward_row_(shape[1], Direction::backward),
-        forward_columns_(shape[0], Direction::forward),
+        forward_columns_(shape[0]),
         backward_columns_(shape[0], Direction::backward),
         modes_(shape[0] * pitch_),
-        slab_(shape[0] * width),
+        columns_(forward_columns_.distance() * width),
+        transformed_(forward_columns_.distance() * width),
         row_(shape[1] + 2) {
-    // columns beside the last one stay 0
-    std::memset(static_cast<void*>(modes_.data()), 0, shape[0] * pitch_ * sizeof(std::complex<T>));
+    std::fill_n(columns_.data(), forward_columns_.distance() * width, std::complex<T>());
   }
 
   /// fill(y, row) writes row y of a grid into nx numbers, and returns false, without having written, for a row of
@@ -61,7 +55,7 @@ class Convolution {
       if (fill(y, row_.data()))
         forward_row_(row_.data(), modes);
       else
-        std::memset(static_cast<void*>(modes), 0, pitch_ * sizeof *modes);
+        std::fill_n(modes, half_, std::complex<T>());
     }
     for (std::size_t first = 0; first < half_; first += width) multiply(factor, first);
     for (std::size_t y = 0; y < ny; ++y)
@@ -74,32 +68,33 @@ class Convolution {
  private:
   static constexpr std::size_t width = ColumnsTransform<T>::width;
 
-  /// A cache line of columns: there, times the factor, and back.
+  /// A few columns: there, times the factor, and back.
   void multiply(const Factor<T>& factor, std::size_t first) {
     heed();
-    const std::size_t ny = shape_[0], bytes = width * sizeof(std::complex<T>);
-    std::complex<T>* const slab = slab_.data();
+    const std::size_t ny = shape_[0], length = forward_columns_.distance(), columns = std::min(width, half_ - first);
     for (std::size_t y = 0; y < ny; ++y)
-      std::memcpy(static_cast<void*>(slab + y * width), modes_.data() + y * pitch_ + first, bytes);
-    forward_columns_(slab);
+      for (std::size_t k = 0; k < columns; ++k) columns_.data()[k * length + y] = modes_.data()[y * pitch_ + first + k];
+    forward_columns_(columns_.data(), transformed_.data());
     const T norm = 1 / static_cast<T>(ny * shape_[1]);
-    T* const m = reinterpret_cast<T*>(slab);
-    const T* const f = reinterpret_cast<const T*>(factor.slab(first));
-    for (std::size_t i = 0; i < 2 * ny * width; i += 2) {
-      const T a = norm * m[i], b = norm * m[i + 1];
-      m[i] = f[i] * a - f[i + 1] * b;
-      m[i + 1] = f[i] * b + f[i + 1] * a;
+    for (std::size_t k = 0; k < columns; ++k) {
+      T* const m = reinterpret_cast<T*>(transformed_.data() + k * length);
+      const T* const f = reinterpret_cast<const T*>(factor.column(first + k));
+      for (std::size_t i = 0; i < 2 * ny; i += 2) {
+        const T a = norm * m[i], b = norm * m[i + 1];
+        m[i] = f[i] * a - f[i + 1] * b;
+        m[i + 1] = f[i] * b + f[i + 1] * a;
+      }
     }
-    backward_columns_(slab);
+    backward_columns_(transformed_.data(), columns_.data());
     for (std::size_t y = 0; y < ny; ++y)
-      std::memcpy(static_cast<void*>(modes_.data() + y * pitch_ + first), slab + y * width, bytes);
+      for (std::size_t k = 0; k < columns; ++k) modes_.data()[y * pitch_ + first + k] = columns_.data()[k * length + y];
   }
 
   Grid shape_;
   std::size_t half_, pitch_;
   RealTransform<T> forward_row_, backward_row_;
   ColumnsTransform<T> forward_columns_, backward_columns_;
-  Scratch<std::complex<T>> modes_, slab_;
+  Scratch<std::complex<T>> modes_, columns_, transformed_;
   Scratch<T> row_;
 };
 

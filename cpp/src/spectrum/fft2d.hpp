@@ -68,9 +68,8 @@ void for_each_column(const HeightMap& map, const Preparation& prepared, unsigned
   constexpr std::size_t together = ColumnsTransform<T>::width;
   constexpr std::size_t ahead = 32;  // rows that are fetched before they are needed
   const std::size_t blocks = (half + together - 1) / together;
-  // columns behind each other in memory, a cache line apart from a power of two
-  const std::size_t length = Scratch<std::complex<T>>::aligned(ny) + 8;
-  const ComplexTransform<T> along_columns(ny, together, length);
+  const ColumnsTransform<T> along_columns(ny);
+  const std::size_t length = along_columns.distance();
   in_parts(threads, blocks, [&](unsigned part, std::size_t begin, std::size_t end) {
     const Scratch<std::complex<T>> in(length * together), out(length * together);
     std::fill_n(in.data(), length * together, std::complex<T>());
