@@ -25,6 +25,16 @@ fmi2Status each_value(fmi2Component c, const Call& call, const fmi2ValueReferenc
   }));
 }
 
+/// The member `act` on each variable, its point and its value.
+template <class Value, class Act>
+fmi2Status each_value(fmi2Component c, const Call& call, const fmi2ValueReference vr[], std::size_t nvr, Value value[],
+                      Act act) {
+  return each_value(c, call, vr, nvr,
+                    [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
+                      return (instance.*act)(variable, point, value[i]);
+                    });
+}
+
 inline fmi2Status none_of(fmi2Component c, std::size_t nvr, const char* kind) {
   return fmi2(guarded(c, [&](Instance& instance) {
     return nvr == 0 ? Status::ok : instance.error(std::string("there is no variable of type ") + kind);
@@ -84,28 +94,15 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2Reset(fmi2Component c) {
 
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                            fmi2Real value[]) {
-  return each_value(
-      c, reading, vr, nvr, [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-        return variable == inside ? instance.error("`inside` is an Integer") : instance.get(variable, point, value[i]);
-      });
+  return each_value(c, reading, vr, nvr, value, &Instance::get);
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                            const fmi2Real value[]) {
-  return each_value(c, setting, vr, nvr,
-                    [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-                      return instance.set(variable, point, value[i]);
-                    });
+  return each_value(c, setting, vr, nvr, value, &Instance::set);
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               fmi2Integer value[]) {
-  return each_value(c, reading, vr, nvr,
-                    [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-                      if (variable != inside) return instance.error("`inside` is the only Integer");
-                      double found = 0;
-                      const Status status = instance.get(variable, point, found);
-                      value[i] = static_cast<fmi2Integer>(found);
-                      return status;
-                    });
+  return each_value(c, reading, vr, nvr, value, &Instance::get_integer);
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                               const fmi2Integer[]) {
@@ -113,20 +110,11 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueRe
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               fmi2Boolean value[]) {
-  return each_value(c, reading, vr, nvr,
-                    [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-                      bool on = false;
-                      const Status status = instance.get_switch(variable, point, on);
-                      value[i] = on ? 1 : 0;
-                      return status;
-                    });
+  return each_value(c, reading, vr, nvr, value, &Instance::get_switch<fmi2Boolean>);
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               const fmi2Boolean value[]) {
-  return each_value(c, setting, vr, nvr,
-                    [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
-                      return instance.set_switch(variable, point, value[i] != 0);
-                    });
+  return each_value(c, setting, vr, nvr, value, &Instance::set_switch);
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                              fmi2String[]) {

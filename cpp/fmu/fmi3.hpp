@@ -24,13 +24,13 @@ Status each_entry(Instance& instance, const fmi3ValueReference vr[], std::size_t
                        : instance.error("there are " + std::to_string(k) + " values, not " + std::to_string(n_values));
 }
 
-/// The same as a call of the host.
-template <class Act>
+/// The member `act` on each, as a call of the host.
+template <class Value, class Act>
 fmi3Status each_value(fmi3Instance instance, const Call& call, const fmi3ValueReference vr[], std::size_t nvr,
-                      std::size_t n_values, Act act) {
+                      Value values[], std::size_t n_values, Act act) {
   return fmi3(guarded(instance, call, [&](Instance& of) {
     return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
-      return act(of, variable, point, k);
+      return (of.*act)(variable, point, values[k]);
     });
   }));
 }
@@ -111,42 +111,23 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3Reset(fmi3Instance instance) {
 
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               fmi3Float64 values[], std::size_t n_values) {
-  return each_value(instance, reading, vr, nvr, n_values,
-                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
-                      return variable == inside ? of.error("`inside` is an Int32") : of.get(variable, point, values[k]);
-                    });
+  return each_value(instance, reading, vr, nvr, values, n_values, &Instance::get);
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               const fmi3Float64 values[], std::size_t n_values) {
-  return each_value(instance, setting, vr, nvr, n_values,
-                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
-                      return of.set(variable, point, values[k]);
-                    });
+  return each_value(instance, setting, vr, nvr, values, n_values, &Instance::set);
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                             fmi3Int32 values[], std::size_t n_values) {
-  return each_value(instance, reading, vr, nvr, n_values,
-                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
-                      if (variable != inside) return of.error("`inside` is the only Int32");
-                      double found = 0;
-                      const Status status = of.get(variable, point, found);
-                      values[k] = static_cast<fmi3Int32>(found);
-                      return status;
-                    });
+  return each_value(instance, reading, vr, nvr, values, n_values, &Instance::get_integer);
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               fmi3Boolean values[], std::size_t n_values) {
-  return each_value(instance, reading, vr, nvr, n_values,
-                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
-                      return of.get_switch(variable, point, values[k]);
-                    });
+  return each_value(instance, reading, vr, nvr, values, n_values, &Instance::get_switch<fmi3Boolean>);
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
                                               const fmi3Boolean values[], std::size_t n_values) {
-  return each_value(instance, setting, vr, nvr, n_values,
-                    [&](Instance& of, std::uint32_t variable, std::size_t point, std::size_t k) {
-                      return of.set_switch(variable, point, values[k]);
-                    });
+  return each_value(instance, setting, vr, nvr, values, n_values, &Instance::set_switch);
 }
 
 // Types of which there is no variable.

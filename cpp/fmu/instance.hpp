@@ -14,34 +14,30 @@ namespace asperity_fmu {
 
 // The state as bytes: numbers of this machine, since a state is read by the program that wrote it.
 
-inline std::size_t size_in_bytes(const State& state) {
-  return (5 + numbers_of_a_point * state.points.size()) * sizeof(double);
-}
+struct Head {
+  double points, time, a_T, clamp, memory;
+};
 
-inline void to_bytes(const State& state, void* bytes) {
-  std::vector<double> numbers{static_cast<double>(state.points.size()), state.time, state.a_T, state.clamp ? 1.0 : 0.0,
-                              state.memory ? 1.0 : 0.0};
-  for (const Point& point : state.points)
-    numbers.insert(numbers.end(), {point.pressure, point.velocity, point.temperature, point.distance, point.sign,
-                                   point.reset, point.direction});
-  std::memcpy(bytes, numbers.data(), numbers.size() * sizeof(double));
+inline std::size_t size_in_bytes(const State& state) { return sizeof(Head) + state.points.size() * sizeof(Point); }
+
+inline void to_bytes(const State& state, char* bytes) {
+  const Head head{static_cast<double>(state.points.size()), state.time, state.a_T, state.clamp ? 1.0 : 0.0,
+                  state.memory ? 1.0 : 0.0};
+  std::memcpy(bytes, &head, sizeof head);
+  std::memcpy(bytes + sizeof head, state.points.data(), state.points.size() * sizeof(Point));
 }
 
 /// False where they are not those of a state of as many points.
-inline bool from_bytes(const void* bytes, std::size_t size, State& state) {
+inline bool from_bytes(const char* bytes, std::size_t size, State& state) {
   if (size != size_in_bytes(state)) return false;
-  std::vector<double> numbers(size / sizeof(double));
-  std::memcpy(numbers.data(), bytes, size);
-  const double* next = numbers.data();
-  if (*next++ != static_cast<double>(state.points.size())) return false;
-  state.time = *next++;
-  state.a_T = *next++;
-  state.clamp = *next++ != 0;
-  state.memory = *next++ != 0;
-  for (Point& point : state.points) {
-    point = {next[0], next[1], next[2], next[3], next[4], next[5], next[6]};
-    next += numbers_of_a_point;
-  }
+  Head head{};
+  std::memcpy(&head, bytes, sizeof head);
+  if (head.points != static_cast<double>(state.points.size())) return false;
+  std::memcpy(state.points.data(), bytes + sizeof head, state.points.size() * sizeof(Point));
+  state.time = head.time;
+  state.a_T = head.a_T;
+  state.clamp = head.clamp != 0;
+  state.memory = head.memory != 0;
   return true;
 }
 
@@ -131,9 +127,18 @@ struct Instance {
   }
 
   [[nodiscard]] Status get(std::uint32_t variable, std::size_t point, double& value) {
+    if (variable == inside) return error("`inside` is an integer");
     const Status status = model->get(variable, point, value);
     return status == Status::error ? error("value reference " + std::to_string(variable) + " is no number to be read")
                                    : status;
+  }
+
+  [[nodiscard]] Status get_integer(std::uint32_t variable, std::size_t point, int& value) {
+    if (variable != inside) return error("`inside` is the only integer");
+    double found = 0;
+    const Status status = model->get(variable, point, found);
+    value = static_cast<int>(found);
+    return status;
   }
 
   [[nodiscard]] Status set(std::uint32_t variable, std::size_t point, double value) {
@@ -142,10 +147,13 @@ struct Instance {
                : error("value reference " + std::to_string(variable) + " is no input: it cannot be set");
   }
 
-  [[nodiscard]] Status get_switch(std::uint32_t variable, std::size_t point, bool& on) const {
-    return model->get_switch(variable, point, on)
-               ? Status::ok
-               : error("value reference " + std::to_string(variable) + " is no Boolean");
+  template <class Boolean>
+  [[nodiscard]] Status get_switch(std::uint32_t variable, std::size_t point, Boolean& on) {
+    bool found = false;
+    if (!model->get_switch(variable, point, found))
+      return error("value reference " + std::to_string(variable) + " is no Boolean");
+    on = found;
+    return Status::ok;
   }
 
   [[nodiscard]] Status set_switch(std::uint32_t variable, std::size_t point, bool on) {
@@ -200,13 +208,14 @@ struct Instance {
     std::size_t needed = 0;
     if (size_of(kept, needed) != Status::ok) return Status::error;
     if (size < needed) return error("a state needs " + std::to_string(needed) + " bytes");
-    to_bytes(*static_cast<const State*>(kept), bytes);
+    to_bytes(*static_cast<const State*>(kept), static_cast<char*>(bytes));
     return Status::ok;
   }
 
   Status read(const void* bytes, std::size_t size, void** kept) const {
     State state = model->state();
-    if (!from_bytes(bytes, size, state)) return error("the bytes are not those of a state of this FMU");
+    if (!from_bytes(static_cast<const char*>(bytes), size, state))
+      return error("the bytes are not those of a state of this FMU");
     if (*kept == nullptr) *kept = new State;
     *static_cast<State*>(*kept) = std::move(state);
     return Status::ok;

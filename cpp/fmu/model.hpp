@@ -62,7 +62,7 @@ struct Point {
   double distance = 0, sign = 0;  // slid since rest [m], and which way
   double reset = 0, direction = 0;
 };
-constexpr std::size_t numbers_of_a_point = 7;
+static_assert(sizeof(Point) == 7 * sizeof(double));
 
 /// Empty where it cannot be read. Streams would make the FMU three times as large.
 inline std::string read_file(const std::filesystem::path& path) {
@@ -181,26 +181,13 @@ class Model {
   /// False where it cannot be set.
   bool set(std::uint32_t variable, std::size_t point, double value) {
     if (!has(variable)) return false;
-    switch (variable) {
-      case pressure:
-        state_.points[point].pressure = value;
-        break;
-      case velocity:
-        state_.points[point].velocity = value;
-        break;
-      case temperature:
-        state_.points[point].temperature = value;
-        break;
-      case direction:
-        state_.points[point].direction = value;
-        break;
-      case a_T:
-        state_.a_T = value;
-        found_.assign(points(), {});
-        return true;
-      default:
-        return false;
+    if (variable == a_T) {
+      state_.a_T = value;
+      found_.assign(points(), {});
+      return true;
     }
+    if (variable == slid_distance || number_of(variable) == nullptr) return false;
+    state_.points[point].*number_of(variable) = value;
     found_[point].known = false;
     return true;
   }
@@ -209,33 +196,12 @@ class Model {
   /// that of the nearest point of the box.
   Status get(std::uint32_t variable, std::size_t point, double& value) {
     if (!has(variable)) return Status::error;
-    switch (variable) {
-      case time:
-        value = state_.time;
-        return Status::ok;
-      case pressure:
-        value = state_.points[point].pressure;
-        return Status::ok;
-      case velocity:
-        value = state_.points[point].velocity;
-        return Status::ok;
-      case temperature:
-        value = state_.points[point].temperature;
-        return Status::ok;
-      case direction:
-        value = state_.points[point].direction;
-        return Status::ok;
-      case slid_distance:
-        value = state_.points[point].distance;
-        return Status::ok;
-      case a_T:
-        value = state_.a_T;
-        return Status::ok;
-      case max_error:
-        value = map_.info().max_error;
-        return Status::ok;
-      default:
-        break;
+    if (number_of(variable) != nullptr || variable == time || variable == a_T || variable == max_error) {
+      value = number_of(variable) != nullptr ? state_.points[point].*number_of(variable)
+              : variable == time             ? state_.time
+              : variable == a_T              ? state_.a_T
+                                             : map_.info().max_error;
+      return Status::ok;
     }
     if (variable < first_output || variable > last_output) return Status::error;
     Found& found = found_[point];
@@ -273,10 +239,7 @@ class Model {
     for (int side = 0; side < 2; ++side) {
       const double step = side == 0 ? -1e-5 : 1e-5;
       Point moved = at;
-      double& changed = input == pressure      ? moved.pressure
-                        : input == velocity    ? moved.velocity
-                        : input == temperature ? moved.temperature
-                                               : moved.direction;
+      double& changed = moved.*number_of(input);
       const double before = changed;
       changed = input == direction ? before + step : before * std::exp(step);
       Found found = look_up(moved);
@@ -292,6 +255,24 @@ class Model {
 
  private:
   static constexpr std::size_t most_points = 1000000;
+
+  /// The number of a point that a variable is; null: it is none that a point keeps.
+  static double Point::*number_of(std::uint32_t variable) {
+    switch (variable) {
+      case pressure:
+        return &Point::pressure;
+      case velocity:
+        return &Point::velocity;
+      case temperature:
+        return &Point::temperature;
+      case direction:
+        return &Point::direction;
+      case slid_distance:
+        return &Point::distance;
+      default:
+        return nullptr;
+    }
+  }
 
   struct Found {
     std::array<double, last_output - first_output + 1> values{};
