@@ -83,8 +83,8 @@ py::array contact_rows(const ScanContact& scan) {
   return array_of(std::move(rows), {static_cast<py::ssize_t>(contacts.size()), solved_count});
 }
 
-template <class Member>
-void set(Solved& contact, Member Solved::*column, double number) {
+template <class Member, class Owner>
+void set(Solved& contact, Member Owner::*column, double number) {
   contact.*column = static_cast<Member>(number);
 }
 

@@ -1,6 +1,7 @@
 // The contact of a scan itself, solved exactly while it slides, as a correction of the theory.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -14,8 +15,8 @@
 
 namespace asperity {
 
-/// A contact that was solved for a ScanContact, and what it is kept by.
-struct SolvedContact {
+/// What a contact of a ScanContact is kept by.
+struct ContactKey {
   std::uint64_t rubber, heat, strain;  // of what the modulus was; 0 without heat, without strain factors
   double poisson_ratio;
   double q0, q1;                      // of the filter [1/m]
@@ -24,6 +25,11 @@ struct SolvedContact {
   double pressure;                    // [Pa]
   double velocity;                    // v a_T [m/s]
   double direction;                   // of sliding [rad]
+  auto operator<=>(const ContactKey&) const = default;
+};
+
+/// A contact that was solved for a ScanContact.
+struct SolvedContact : ContactKey {
   double contact_area;                // A/A0
   double hysteresis;                  // mu_H
   double lateral;                     // the force across, over the load

@@ -44,7 +44,7 @@ MissingContacts::MissingContacts(Scan& scan, const Rubber& rubber, double poisso
 
 WaveModulus MissingContacts::modulus_of(const ContactKey& key) const {
   if (!rule_.strain_factors) return modulus_;
-  return softened(modulus_, rule_.strain_factors, scan_.part(key.band, key.part, key.coarse));
+  return softened(modulus_, rule_.strain_factors, scan_.part({key.q0, key.q1}, key.part, key.coarse));
 }
 
 std::optional<SolvedContact> MissingContacts::find(const ContactKey& key) {
@@ -190,7 +190,8 @@ std::span<const int> ScanParts::parts() const {
 }
 
 ContactKey ScanParts::low_passed(ContactKey key) const {
-  key.band = coarse_;
+  key.q0 = coarse_.q0;
+  key.q1 = coarse_.q1;
   return key;
 }
 

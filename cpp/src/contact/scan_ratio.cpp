@@ -128,8 +128,9 @@ std::vector<ScanRatio> ScanRatios::operator()(std::span<const double> pressure, 
   constexpr std::size_t many = 8;
   const bool on_lattice = contact_.pressure_lattice() || std::set(pressure.begin(), pressure.end()).size() > many;
 
-  const ContactKey key{fingerprint_, 0, fingerprint_of(strain_), poisson_ratio_, band_, Scan::whole, false, 0, 0,
-                       direction_};
+  const ContactKey key{
+      fingerprint_, 0, fingerprint_of(strain_), poisson_ratio_, band_.q0, band_.q1, Scan::whole, false, 0, 0,
+      direction_};
   const auto interpolated = [&](double p, double v) {
     const auto key_of = [&](int position) {
       ContactKey at = key;
@@ -198,7 +199,8 @@ ScanRatio ScanRatios::hot(double pressure, double velocity, const HotRule& rule)
                        fingerprint(rule.a_T),
                        fingerprint_of(strain_),
                        poisson_ratio_,
-                       band_,
+                       band_.q0,
+                       band_.q1,
                        Scan::whole,
                        false,
                        pressure,

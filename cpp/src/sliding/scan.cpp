@@ -148,7 +148,7 @@ std::optional<SolvedContact> Scan::contact(const ContactKey& key) const {
 }
 
 SolvedContact Scan::solve(const ContactKey& key, const WaveModulus& modulus) {
-  const auto map = part(key.band, key.part, key.coarse);
+  const auto map = part({key.q0, key.q1}, key.part, key.coarse);
   const auto begin = std::chrono::steady_clock::now();
   const Course course{.progress = {}};
   const PeriodContact found =
@@ -160,42 +160,16 @@ SolvedContact Scan::solve(const ContactKey& key, const WaveModulus& modulus) {
                        " Pa and v a_T = " + show(key.velocity, 6) + " m/s reached an error of " + show(c.error, 2) +
                        ": must be " + show(most_error, 2) + " or less");
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  return {.rubber = key.rubber,
-          .heat = key.heat,
-          .strain = key.strain,
-          .poisson_ratio = key.poisson_ratio,
-          .q0 = key.band.q0,
-          .q1 = key.band.q1,
-          .part = key.part,
-          .coarse = key.coarse,
-          .pressure = key.pressure,
-          .velocity = key.velocity,
-          .direction = key.direction,
-          .contact_area = c.contact_area,
-          .hysteresis = c.hysteresis,
-          .lateral = c.lateral,
-          .rule_area = 0,
-          .rule_hysteresis = 0,
-          .error = c.error,
-          .seconds = took.count(),
-          .points_y = c.shape[0],
-          .points_x = c.shape[1],
-          .contact_points = c.contact_area_raw * static_cast<double>(c.shape[0] * c.shape[1])};
+  return {key,        c.contact_area, c.hysteresis,
+          c.lateral,
+          0,  // of the rule, which is not known here
+          0,          c.error,        took.count(),
+          c.shape[0], c.shape[1],     c.contact_area_raw * static_cast<double>(c.shape[0] * c.shape[1])};
 }
 
-void Scan::add(const SolvedContact& c) {
+void Scan::add(const SolvedContact& contact) {
   const std::lock_guard lock(mutex_);
-  contacts_.insert_or_assign(ContactKey{c.rubber,
-                                        c.heat,
-                                        c.strain,
-                                        c.poisson_ratio,
-                                        {c.q0, c.q1},
-                                        c.part,
-                                        c.coarse,
-                                        c.pressure,
-                                        c.velocity,
-                                        c.direction},
-                             c);
+  contacts_.insert_or_assign(contact, contact);
 }
 
 void Scan::add_errors(const ContactKey& key, const ContactErrors& errors) {

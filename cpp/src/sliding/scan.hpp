@@ -24,18 +24,6 @@ namespace asperity {
 std::uint64_t fingerprint(const Rubber& rubber);
 std::uint64_t fingerprint(std::span<const double> numbers);
 
-/// What a contact is kept by.
-struct ContactKey {
-  std::uint64_t rubber, heat, strain;
-  double poisson_ratio;
-  Band band;
-  int part;
-  bool coarse;
-  double pressure, velocity;
-  double direction;
-  auto operator<=>(const ContactKey&) const = default;
-};
-
 /// Relative errors of mu, each known or not.
 struct ContactErrors {
   std::optional<double> interpolation = {}, pixels = {}, scan = {}, joining = {};
