@@ -18,21 +18,12 @@ using std::numbers::pi;
 
 namespace {
 
-/// term(0) + ... + term(n - 1).
-template <class Term>
-double sum(std::size_t n, Term term) {
-  double total = 0;
-  for (std::size_t i = 0; i < n; ++i) total += term(i);
-  return total;
-}
-
 /// Rows that are fitted: x = ln q, y = ln C, w the weights, of sum 1; their places in the spectrum and what that knows
 /// of them.
 struct Rows {
-  std::vector<double> x, y, w;
+  Eigen::ArrayXd x, y, w;
   std::vector<std::size_t> place;
   const RowQuality& quality;
-  [[nodiscard]] std::size_t size() const { return x.size(); }
 };
 
 bool flagged(const TabulatedSpectrum& spectrum, std::size_t row, int flags) {
@@ -70,17 +61,18 @@ Chosen chosen_rows(const TabulatedSpectrum& spectrum, const FitOptions& options)
 }
 
 Rows gather(const TabulatedSpectrum& spectrum, const std::vector<std::size_t>& rows, FitMethod method) {
-  Rows result{{}, {}, {}, rows, spectrum.quality()};
-  for (const std::size_t row : rows) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Rows result{Eigen::ArrayXd(n), Eigen::ArrayXd(n), Eigen::ArrayXd::Ones(n), rows, spectrum.quality()};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const std::size_t row = rows[static_cast<std::size_t>(i)];
     if (spectrum.density()[row] == 0)
       refuse("density", row, 0, "positive for a fit in the logarithm; q_min, q_max may leave it out");
-    result.x.push_back(std::log(spectrum.wavenumber()[row]));
-    result.y.push_back(std::log(spectrum.density()[row]));
-    const bool counted = method == FitMethod::least_squares && !spectrum.quality().count.empty();
-    result.w.push_back(counted ? spectrum.quality().count[row] : 1);
+    result.x[i] = std::log(spectrum.wavenumber()[row]);
+    result.y[i] = std::log(spectrum.density()[row]);
+    if (method == FitMethod::least_squares && !spectrum.quality().count.empty())
+      result.w[i] = spectrum.quality().count[row];
   }
-  const double total = sum(result.size(), [&](std::size_t i) { return result.w[i]; });
-  for (double& weight : result.w) weight /= total;
+  result.w /= result.w.sum();
   return result;
 }
 
@@ -91,19 +83,12 @@ struct Broken {
 
   /// The best line for a given x_r, and slope where that is given too.
   Broken(const Rows& rows, double at, std::optional<double> held = std::nullopt) : x_r(at) {
-    const auto weighted = [&](auto term) {
-      return sum(rows.size(), [&](std::size_t i) { return term(rows.w[i], std::max(rows.x[i] - at, 0.0), rows.y[i]); });
-    };
-    const double mean = weighted([](double w, double above, double) { return w * above; });
-    const double mean_y = weighted([](double w, double, double y) { return w * y; });
-    slope = held ? *held
-                 : weighted([&](double w, double above, double y) { return w * (above - mean) * (y - mean_y); }) /
-                       weighted([&](double w, double above, double) { return w * ((above - mean) * (above - mean)); });
+    const Eigen::ArrayXd above = (rows.x - at).max(0);
+    const double mean = (rows.w * above).sum(), mean_y = (rows.w * rows.y).sum();
+    const Eigen::ArrayXd apart = rows.w * (above - mean);
+    slope = held ? *held : (apart * (rows.y - mean_y)).sum() / (apart * (above - mean)).sum();
     level = mean_y - slope * mean;
-    sum_of_squares = weighted([&](double w, double above, double y) {
-      const double left = y - level - slope * above;
-      return w * (left * left);
-    });
+    sum_of_squares = (rows.w * (rows.y - level - slope * above).square()).sum();
   }
 
   /// ln h_rms of the band [x0, x1], for given parameters: 2 pi int q C dq of the flat and the falling part.
@@ -122,14 +107,11 @@ Broken best_break(const Rows& rows, double lower, double upper) {
 
 /// The slope of the rows below x_r by themselves, and the weighted sum of squares of their distances to their middle.
 std::array<double, 2> slope_below(const Rows& rows, double x_r) {
-  const auto weighted = [&](auto term) {
-    return sum(rows.size(), [&](std::size_t i) { return term(rows.x[i] < x_r ? rows.w[i] : 0, rows.x[i], rows.y[i]); });
-  };
-  const double total = weighted([](double w, double, double) { return w; });
-  const double mean_x = weighted([](double w, double x, double) { return w * x; }) / total;
-  const double mean_y = weighted([](double w, double, double y) { return w * y; }) / total;
-  const double square = weighted([&](double w, double x, double) { return w * ((x - mean_x) * (x - mean_x)); });
-  return {weighted([&](double w, double x, double y) { return w * (x - mean_x) * (y - mean_y); }) / square, square};
+  const Eigen::ArrayXd w = (rows.x < x_r).select(rows.w, 0);
+  const double mean_x = (w * rows.x).sum() / w.sum(), mean_y = (w * rows.y).sum() / w.sum();
+  const Eigen::ArrayXd apart = w * (rows.x - mean_x);
+  const double square = (apart * (rows.x - mean_x)).sum();
+  return {(apart * (rows.y - mean_y)).sum() / square, square};
 }
 
 /// A fit to rows with its covariance, of level, slope and, where x_r is a parameter too, x_r.
@@ -147,18 +129,16 @@ struct Model {
 /// Rows have the covariance V = s^2 W^-1/2 R W^-1/2, W of trace 1 and R their correlation: with A = (J^T W J)^-1 that
 /// of the parameters is A J^T W V W J A. What is left has the mean s^2 (n - t), t the trace of A J^T W^1/2 R W^1/2 J.
 Model::Model(Rows of, double x_r, Eigen::Index parameters) : rows(std::move(of)), fit(rows, x_r) {
-  const auto n = static_cast<Eigen::Index>(rows.size());
+  const Eigen::Index n = rows.x.size();
+  const Eigen::ArrayXd above = rows.x - fit.x_r;
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Ones(n, parameters);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const double above = rows.x[static_cast<std::size_t>(i)] - fit.x_r;
-    jacobian(i, 1) = std::max(above, 0.0);
-    if (parameters == 3) jacobian(i, 2) = above > 0 ? -fit.slope : 0;
-  }
-  const auto w = Eigen::VectorXd::Map(rows.w.data(), n);
+  jacobian.col(1) = above.max(0);
+  if (parameters == 3) jacobian.col(2) = (above > 0).select(Eigen::ArrayXd::Constant(n, -fit.slope), 0);
+  const Eigen::VectorXd w = rows.w;
   const Eigen::MatrixXd inverse = inverse_normal(jacobian, w), scaled = w.cwiseSqrt().asDiagonal() * jacobian;
   Eigen::MatrixXd correlated = scaled;  // R W^1/2 J
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    for (std::size_t j = i + 1; j < rows.size() && rows.place[j] - rows.place[i] <= rows.quality.lags(); ++j) {
+  for (std::size_t i = 0; i < rows.place.size(); ++i)
+    for (std::size_t j = i + 1; j < rows.place.size() && rows.place[j] - rows.place[i] <= rows.quality.lags(); ++j) {
       const double correlation = rows.quality.correlation_of(rows.place[i], rows.place[j]);
       const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
       correlated.row(a) += correlation * scaled.row(b);
@@ -174,18 +154,18 @@ Model::Model(Rows of, double x_r, Eigen::Index parameters) : rows(std::move(of))
 /// (1978)), rows that are alike counting as fewer. A mere bend is none: there what lies below falls, by more than two
 /// of its errors, more than a quarter as steeply as what lies above.
 double Model::probability(double x0) const {
-  const double without = best_break(rows, rows.x.front(), x0).sum_of_squares, alike = freedom / 3;
+  const double without = best_break(rows, rows.x[0], x0).sum_of_squares, alike = freedom / 3;
   if (!(fit.slope < 0 && without > fit.sum_of_squares)) return 0;
   const auto [slope, square] = slope_below(rows, fit.x_r);
   if (slope + 2 * std::sqrt(scatter * alike / square) < fit.slope / 4) return 0;
-  const double independent = static_cast<double>(rows.size()) / alike;
+  const double independent = static_cast<double>(rows.x.size()) / alike;
   const double odds = independent * std::log(without / fit.sum_of_squares) - std::log(independent);
   return 1 / (1 + std::exp(-odds / 2));
 }
 
 /// The best roll-off above x0, at least three rows on either side of it.
 std::optional<Model> rolled_off(Rows rows, double x0) {
-  const std::size_t n = rows.size();
+  const Eigen::Index n = rows.x.size();
   if (n < 7) return std::nullopt;
   const double lower = std::max(x0, rows.x[2]), upper = rows.x[n - 4];
   if (!(upper > lower)) return std::nullopt;
@@ -279,7 +259,7 @@ SelfAffineFit fit_self_affine(const TabulatedSpectrum& spectrum, const FitOption
       {.rms_height = estimate.value[0], .hurst = hurst, .q0 = q[reliable.front()], .q1 = q[reliable.back()]},
       {},
       std::sqrt(fit.sum_of_squares),
-      likelier.rows.size()};
+      likelier.rows.place.size()};
   if (broken) result.spectrum.rolloff = estimate.value[2];
   for (std::size_t i = 0; i < (broken ? 3 : 2); ++i)
     for (std::size_t j = 0; j < (broken ? 3 : 2); ++j)
