@@ -31,6 +31,9 @@ double shape(const SelfAffineSpectrum& s, double x, double angle) {
   return s.rolloff && k < 1 ? 1 : std::pow(k, -1 - s.hurst);
 }
 
+/// C_r, or that of the law without roll-off at k = q0.
+double top_density(const SelfAffineSpectrum& s) { return density_at_rolloff(s) / (s.rolloff ? 1 : mean_of_shape(s)); }
+
 /// Means over directions of the shape times cos 2 m (phi - lay), m = 0 to n - 1, in a quarter of the circle, which is
 /// alike in all: of the flat part, which ends it, in closed form, of the rest by Gauss rules.
 std::vector<double> means(const SelfAffineSpectrum& s, double x, std::size_t n) {
@@ -148,7 +151,7 @@ bool is_directional(const Spectrum& spectrum) {
 PlaneDensity::PlaneDensity(const Spectrum& spectrum) : spectrum_(spectrum) {
   const auto* const s = std::get_if<SelfAffineSpectrum>(&spectrum);
   if (s && is_directional(spectrum))
-    top_ = density_at_rolloff(*s) / (s->rolloff ? 1 : mean_of_shape(*s));
+    top_ = top_density(*s);
   else
     pieces_ = s ? segments(spectrum) : segments_of_rows(std::get<TabulatedSpectrum>(spectrum));
 }
@@ -185,27 +188,23 @@ std::vector<double> density(const Spectrum& spectrum, std::span<const double> wa
 namespace {
 
 TabulatedSpectrum table_of(const SelfAffineSpectrum& s) {
+  const std::size_t width = most_harmonics + 1;
   std::vector<double> q = rows_of(s), c;
-  const double top = density_at_rolloff(s), from = s.rolloff.value_or(s.q0);
-  const double scale = s.rolloff ? 1 : means(s, 1, 1)[0];
-  std::vector<std::vector<double>> rows;
+  const std::vector<double> shape = shape_harmonics(s, q, width);
+  const double top = top_density(s);
   std::size_t count = 0;
-  for (const double at : q) {
-    const bool same = !s.rolloff && !rows.empty();
-    rows.push_back(same ? rows.front() : means(s, s.rolloff ? at / from : 1, most_harmonics + 1));
-    const double mean = rows.back()[0];
-    c.push_back(top * (s.rolloff ? mean : mean / scale * std::pow(at / from, fall(s))));
-    for (double& one : rows.back()) one /= same ? 1 : mean;
-    if (same) c.back() = top * std::pow(at / from, fall(s));
-    for (std::size_t m = count; m < most_harmonics; ++m)
-      if (std::fabs(rows.back()[m + 1]) > rounding_error) count = m + 1;
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    const double* const row = &shape[i * width];
+    c.push_back(top * row[0]);
+    for (std::size_t m = count + 1; m < width; ++m)
+      if (std::fabs(row[m]) > rounding_error * row[0]) count = m;
   }
   RingHarmonics harmonics{count, {}, {}, {}};
-  for (const std::vector<double>& row : rows)
+  for (std::size_t i = 0; i < q.size(); ++i)
     for (std::size_t m = 1; m <= count; ++m) {
-      const double angle = 2 * static_cast<double>(m) * s.lay;
-      harmonics.cosine.push_back(row[m] * std::cos(angle));
-      harmonics.sine.push_back(row[m] * std::sin(angle));
+      const double share = shape[i * width + m] / shape[i * width], angle = 2 * static_cast<double>(m) * s.lay;
+      harmonics.cosine.push_back(share * std::cos(angle));
+      harmonics.sine.push_back(share * std::sin(angle));
     }
   TabulatedSpectrum result(std::move(q), std::move(c), {}, std::move(harmonics));
   result.surface().law_from = from;
