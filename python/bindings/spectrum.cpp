@@ -43,6 +43,12 @@ RingHarmonics harmonics_of(std::size_t rows, const Column& cosine, const Column&
   return harmonics;
 }
 
+/// A getter of what is known of the heights.
+template <class S, class Member>
+auto heights_number(Member HeightShape::*which) {
+  return [which](const S& s) { return s.quality().heights ? Optional((*s.quality().heights).*which) : std::nullopt; };
+}
+
 /// A spectrum given row by row; columns that it does not have are None.
 template <class S>
 py::classh<S> bind_rows(py::module_& m, const char* name) {
@@ -68,15 +74,9 @@ py::classh<S> bind_rows(py::module_& m, const char* name) {
                                const auto rows = static_cast<py::ssize_t>(s.wavenumber().size());
                                return array_of(std::vector(s.quality().correlation), {rows, lags});
                              })
-      .def_property_readonly(
-          "skewness",
-          [](const S& s) { return s.quality().heights ? Optional(s.quality().heights->skewness) : std::nullopt; })
-      .def_property_readonly(
-          "kurtosis",
-          [](const S& s) { return s.quality().heights ? Optional(s.quality().heights->kurtosis) : std::nullopt; })
-      .def_property_readonly(
-          "curvature_kurtosis",
-          [](const S& s) { return s.quality().heights ? s.quality().heights->curvature_kurtosis : std::nullopt; })
+      .def_property_readonly("skewness", heights_number<S>(&HeightShape::skewness))
+      .def_property_readonly("kurtosis", heights_number<S>(&HeightShape::kurtosis))
+      .def_property_readonly("curvature_kurtosis", heights_number<S>(&HeightShape::curvature_kurtosis))
       .def("log_binned", py::overload_cast<const S&, double>(&log_binned), Guarded());
 }
 
@@ -165,10 +165,7 @@ void bind_spectrum(py::module_& m) {
             harmonics_of(span_of(q).size(), cosine, sine, harmonic_error), q1);
       }))
       .def_property_readonly("q1", &TabulatedSpectrum::q1)
-      .def_property_readonly("slope_ratio",
-                             [](const TabulatedSpectrum& s) {
-                               return s.quality().heights ? s.quality().heights->slope_ratio : std::nullopt;
-                             })
+      .def_property_readonly("slope_ratio", heights_number<TabulatedSpectrum>(&HeightShape::slope_ratio))
       .def_property_readonly("cosine",
                              [](const TabulatedSpectrum& s) { return harmonic_rows(s, &RingHarmonics::cosine); })
       .def_property_readonly("sine", [](const TabulatedSpectrum& s) { return harmonic_rows(s, &RingHarmonics::sine); })
