@@ -51,13 +51,6 @@ PointSet points(Grid shape, Inside inside) {
   return set;
 }
 
-void subtract_mean(float* v, std::size_t n) {
-  double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) sum += static_cast<double>(v[i]);
-  const auto mean = static_cast<float>(sum / static_cast<double>(n));
-  for (std::size_t i = 0; i < n; ++i) v[i] -= mean;
-}
-
 /// |q| of every mode.
 std::vector<double> wavenumbers(const ContactProblem& problem) {
   const auto [ny, nx] = problem.shape;
@@ -79,6 +72,21 @@ void fill(Factor<T>& factor, const ContactProblem& problem, const std::vector<do
       if (i > 0) factor.set(y, x, std::complex<T>(f(problem.modes[i], q[i])));
 }
 
+/// That of the factor with all rows of a grid.
+Eigen::ArrayXd product(Convolution<double>& convolution, const Factor<double>& factor, const Eigen::ArrayXd& of,
+                       std::size_t nx) {
+  Eigen::ArrayXd result(of.size());
+  convolution(
+      factor,
+      [&](std::size_t y, double* row) {
+        std::copy_n(of.data() + y * nx, nx, row);
+        return true;
+      },
+      [](std::size_t) { return true; },
+      [&](std::size_t y, const double* row) { std::copy_n(row, nx, result.data() + y * nx); });
+  return result;
+}
+
 class ContactSolver {
  public:
   explicit ContactSolver(const ContactProblem& problem)
@@ -96,12 +104,12 @@ class ContactSolver {
       weight_ = std::max(weight_, wavenumber_[i] / std::abs(problem.modes[i]) / 8);
   }
 
-  ContactSolution solve(std::vector<double> start, double rtol, const Course& course) {
+  ContactSolution solve(Eigen::ArrayXd start, double rtol, const Course& course) {
     state_ = std::move(start);
-    if (state_.empty()) state_.assign(size_, problem_.load);
+    if (state_.size() == 0) state_.setConstant(static_cast<Eigen::Index>(size_), problem_.load);
     normalise(state_);
     evaluate(state_, gap_);
-    set_ = points(problem_.shape, [&](std::size_t i) { return state_[i] > 0; });
+    set_ = points(problem_.shape, [&](std::size_t i) { return state_[static_cast<Eigen::Index>(i)] > 0; });
     double beta = first_beta, merit = std::numeric_limits<double>::infinity();
     double best = merit;
     int best_step = 0;
@@ -118,8 +126,8 @@ class ContactSolver {
         const bool easy = solved && residual < merit;
         beta = easy ? std::max(least_beta, 0.85 * beta) : std::min(most_beta, 1.6 * beta);
         merit = residual;
-        std::swap(state_, next_);
-        std::swap(gap_, next_gap_);
+        state_.swap(next_);
+        gap_.swap(next_gap_);
         set_ = next_set(level - deep * error);
         result.error = error;
         if (error < 0.5 * best) {
@@ -134,54 +142,29 @@ class ContactSolver {
       if (course.progress) course.progress({problem_.shape, step, result.error});
       if (result.converged || step - best_step >= patience || std::chrono::steady_clock::now() > course.deadline) break;
     }
-    const double least = *std::ranges::min_element(gap_);
-    for (double& g : gap_) g -= least;
+    gap_ -= gap_.minCoeff();
     result.pressure = std::move(state_);
     result.gap = std::move(gap_);
     return result;
   }
 
  private:
-  void normalise(std::vector<double>& p) const {
-    double sum = 0;
-    for (const double v : p) sum += v;
-    const double factor = problem_.load * static_cast<double>(size_) / sum;
-    for (double& v : p) v *= factor;
-  }
+  void normalise(Eigen::ArrayXd& p) const { p *= problem_.load / p.mean(); }
 
   /// K p - h.
-  void evaluate(const std::vector<double>& p, std::vector<double>& gap) {
-    gap.resize(size_);
-    const std::size_t nx = problem_.shape[1];
-    fine_(
-        compliance_,
-        [&](std::size_t y, double* row) {
-          std::copy_n(p.data() + y * nx, nx, row);
-          return true;
-        },
-        [](std::size_t) { return true; },
-        [&](std::size_t y, const double* row) {
-          for (std::size_t x = 0; x < nx; ++x) gap[y * nx + x] = row[x] - problem_.heights[y * nx + x];
-        });
+  void evaluate(const Eigen::ArrayXd& p, Eigen::ArrayXd& gap) {
+    gap = product(fine_, compliance_, p, problem_.shape[1]) - problem_.heights;
   }
 
   /// The constant by which the gap has no work on the whole.
-  [[nodiscard]] double weighted_gap(const std::vector<double>& p, const std::vector<double>& gap) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < size_; ++i) sum += p[i] * gap[i];
-    return sum / (problem_.load * static_cast<double>(size_));
+  [[nodiscard]] double weighted_gap(const Eigen::ArrayXd& p, const Eigen::ArrayXd& gap) const {
+    return (p * gap).mean() / problem_.load;
   }
 
   /// The complementarity error, and the natural residual |min(p, w (gap - level))|.
-  [[nodiscard]] std::pair<double, double> measure(const std::vector<double>& p, const std::vector<double>& gap,
+  [[nodiscard]] std::pair<double, double> measure(const Eigen::ArrayXd& p, const Eigen::ArrayXd& gap,
                                                   double level) const {
-    double least = level, sum = 0;
-    for (std::size_t i = 0; i < size_; ++i) {
-      least = std::min(least, gap[i]);
-      const double r = std::min(p[i], weight_ * (gap[i] - level));
-      sum += r * r;
-    }
-    return {level - least, std::sqrt(sum / static_cast<double>(size_))};
+    return {level - std::min(level, gap.minCoeff()), std::sqrt(p.min(weight_ * (gap - level)).square().mean())};
   }
 
   void set_beta(double beta) {
@@ -209,39 +192,36 @@ class ContactSolver {
         [&](std::size_t y, const float* row) {
           for (std::size_t i = set_.first[y]; i < set_.first[y + 1]; ++i) to[i] = row[set_.column[i]];
         });
-    subtract_mean(to, set_.size());
+    auto result = Eigen::ArrayXf::Map(to, static_cast<Eigen::Index>(set_.size()));
+    result -= static_cast<float>(result.cast<double>().mean());
   }
 
   /// From state and gap to the pressure `next_`, and which points of the set fell below 0 and leave it. Whether GMRES
   /// left no more of the residual than `enough`.
   bool newton_step() {
-    const std::size_t n = set_.size(), nx = problem_.shape[1];
-    std::vector<float> right(n), change(n);
-    double sum = 0;
-    for_each_point([&](std::size_t, std::size_t at) { sum += gap_[at]; }, nx);
-    const double mean = sum / static_cast<double>(n);
-    for_each_point([&](std::size_t i, std::size_t at) { right[i] = static_cast<float>(mean - gap_[at]); }, nx);
-    const Gmres::Result found = gmres_(
-        n, right.data(), change.data(), enough, most_vectors,
-        [&](const float* from, float* to) { apply(compliance_on_set_, from, to); },
-        [&](const float* from, float* to) { apply(stiffness_on_set_, from, to); });
-    next_.assign(size_, 0.0);
-    leaves_.assign(n, false);
-    for_each_point(
-        [&](std::size_t i, std::size_t at) {
-          const double p = state_[at] + static_cast<double>(change[i]);
-          next_[at] = std::max(p, 0.0);
-          leaves_[i] = !(p > 0);
-        },
-        nx);
+    Eigen::VectorXd gap(static_cast<Eigen::Index>(set_.size()));
+    for_each_point([&](Eigen::Index i, Eigen::Index at) { gap[i] = gap_[at]; });
+    const Eigen::VectorXf right = (gap.mean() - gap.array()).cast<float>();
+    double residual = 0;
+    const Eigen::VectorXf change = gmres(
+        right, enough, most_vectors, [&](const float* from, float* to) { apply(compliance_on_set_, from, to); },
+        [&](const float* from, float* to) { apply(stiffness_on_set_, from, to); }, residual);
+    next_.setZero(state_.size());
+    leaves_.assign(set_.size(), false);
+    for_each_point([&](Eigen::Index i, Eigen::Index at) {
+      const double p = state_[at] + static_cast<double>(change[i]);
+      next_[at] = std::max(p, 0.0);
+      leaves_[static_cast<std::size_t>(i)] = !(p > 0);
+    });
     normalise(next_);
-    return found.residual <= enough;
+    return residual <= enough;
   }
 
   template <class Visit>
-  void for_each_point(Visit visit, std::size_t nx) const {
+  void for_each_point(Visit visit) const {
     for (std::size_t y = 0; y < problem_.shape[0]; ++y)
-      for (std::size_t i = set_.first[y]; i < set_.first[y + 1]; ++i) visit(i, y * nx + set_.column[i]);
+      for (std::size_t i = set_.first[y]; i < set_.first[y + 1]; ++i)
+        visit(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(y * problem_.shape[1] + set_.column[i]));
   }
 
   /// Points of the set whose pressure stayed positive, and others whose gap is below `depth`. Where all points of
@@ -253,7 +233,7 @@ class ContactSolver {
       y = at / nx;
       while (i < set_.first[y]) ++i;
       if (i < set_.first[y + 1] && set_.column[i] == at - y * nx) return !leaves_[i++];
-      return gap_[at] < depth;
+      return gap_[static_cast<Eigen::Index>(at)] < depth;
     });
   }
 
@@ -265,37 +245,23 @@ class ContactSolver {
   Factor<double> compliance_;
   Factor<float> compliance_on_set_, stiffness_on_set_;
   double weight_ = 0, beta_ = -1;
-  Gmres gmres_;
   PointSet set_;
-  std::vector<double> state_, gap_, next_, next_gap_;
+  Eigen::ArrayXd state_, gap_, next_, next_gap_;
   std::vector<bool> leaves_;
 };
 
 }  // namespace
 
-ContactSolution solve_contact(const ContactProblem& problem, std::vector<double> start, double rtol,
-                              const Course& course) {
+ContactSolution solve_contact(const ContactProblem& problem, Eigen::ArrayXd start, double rtol, const Course& course) {
   return ContactSolver(problem).solve(std::move(start), rtol, course);
 }
 
-std::vector<double> complete_contact(const ContactProblem& problem) {
+std::optional<Eigen::ArrayXd> complete_contact(const ContactProblem& problem) {
   Convolution<double> convolution(problem.shape);
   Factor<double> stiffness(problem.shape);
   fill(stiffness, problem, wavenumbers(problem), [](std::complex<double> c, double q) { return q / c; });
-  const std::size_t nx = problem.shape[1];
-  std::vector<double> pressure(problem.shape[0] * nx);
-  convolution(
-      stiffness,
-      [&](std::size_t y, double* row) {
-        std::copy_n(problem.heights.data() + y * nx, nx, row);
-        return true;
-      },
-      [](std::size_t) { return true; },
-      [&](std::size_t y, const double* row) {
-        for (std::size_t x = 0; x < nx; ++x) pressure[y * nx + x] = problem.load + row[x];
-      });
-  if (*std::ranges::min_element(pressure) < 0) pressure.clear();
-  return pressure;
+  Eigen::ArrayXd pressure = problem.load + product(convolution, stiffness, problem.heights, problem.shape[1]);
+  return pressure.minCoeff() < 0 ? std::nullopt : std::optional(std::move(pressure));
 }
 
 }  // namespace asperity

@@ -1,10 +1,12 @@
 // The contact of one map on one grid, in units without dimensions, and the compliance of sliding rubber for it.
 #pragma once
 
+#include <Eigen/Core>
 #include <chrono>
 #include <complex>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "asperity/rubber.hpp"
@@ -18,15 +20,15 @@ namespace asperity {
 struct ContactProblem {
   Grid shape;
   double aspect;                            // dx / dy
-  std::vector<double> heights;              // h, of mean 0 and rms 1
+  Eigen::ArrayXd heights;                   // h, of mean 0 and rms 1
   std::vector<std::complex<double>> modes;  // ny x (nx / 2 + 1), |.| <= 1
   double load;
 };
 
 struct ContactSolution {
-  std::vector<double> pressure;  // p >= 0, <p> = load
-  std::vector<double> gap;       // >= 0
-  double error;                  // <p gap> / load
+  Eigen::ArrayXd pressure;  // p >= 0, <p> = load
+  Eigen::ArrayXd gap;       // >= 0
+  double error;             // <p gap> / load
   int steps;
   bool converged;
 };
@@ -38,11 +40,10 @@ struct Course {
 };
 
 /// From the pressure `start`, of any scale; none: equal everywhere.
-ContactSolution solve_contact(const ContactProblem& problem, std::vector<double> start, double rtol,
-                              const Course& course);
+ContactSolution solve_contact(const ContactProblem& problem, Eigen::ArrayXd start, double rtol, const Course& course);
 
-/// Where the pressure that makes contact everywhere has no tension, this pressure; otherwise empty.
-std::vector<double> complete_contact(const ContactProblem& problem);
+/// The pressure that makes contact everywhere, where it has no tension.
+std::optional<Eigen::ArrayXd> complete_contact(const ContactProblem& problem);
 
 /// E of the waves of a map.
 struct WaveModulus {

@@ -28,11 +28,12 @@ constexpr double coarse_tolerance = 1e-3;
 constexpr double excess = (pi - 1 + std::numbers::ln2) / 24;
 
 /// The nearest points of a coarser or finer grid.
-std::vector<double> resampled(const std::vector<double>& from, Grid shape, Grid wanted) {
-  std::vector<double> result(wanted[0] * wanted[1]);
+Eigen::ArrayXd resampled(const double* from, Grid shape, Grid wanted) {
+  Eigen::ArrayXd result(static_cast<Eigen::Index>(wanted[0] * wanted[1]));
+  double* to = result.data();
   for (std::size_t y = 0; y < wanted[0]; ++y)
     for (std::size_t x = 0; x < wanted[1]; ++x)
-      result[y * wanted[1] + x] = from[y * shape[0] / wanted[0] * shape[1] + x * shape[1] / wanted[1]];
+      *to++ = from[y * shape[0] / wanted[0] * shape[1] + x * shape[1] / wanted[1]];
   return result;
 }
 
@@ -57,8 +58,7 @@ std::pair<ContactProblem, double> problem_on(const Sliding& s, Grid grid, const 
   const double unit = s.period.rms_height / (2 * (1 - nu * nu) * dx * softest);
   ContactProblem problem{grid, dx / dy, {}, c.modes, s.way.pressure / unit};
   for (std::complex<double>& one : problem.modes) one /= softest;
-  problem.heights = grid == s.period.shape ? s.period.heights : resampled(s.period.heights, s.period.shape, grid);
-  for (double& h : problem.heights) h /= s.period.rms_height;
+  problem.heights = resampled(s.period.heights.data(), s.period.shape, grid) / s.period.rms_height;
   return {std::move(problem), unit};
 }
 
@@ -113,19 +113,14 @@ SlidingContact figures(const Sliding& s, const Compliance& c, ContactSolution so
   contact.pixel_size = {s.length_y / static_cast<double>(contact.shape[0]),
                         s.length_x / static_cast<double>(contact.shape[1])};
   contact.error = solution.error;
-  contact.pressure = std::move(solution.pressure);
-  contact.gap = std::move(solution.gap);
-  double work = 0, gap = 0;
-  for (std::size_t i = 0; i < contact.pressure.size(); ++i) {
-    contact.pressure[i] *= unit;
-    contact.gap[i] *= s.period.rms_height;
-    work += contact.pressure[i] * s.period.heights[i];
-    gap += contact.gap[i];
-  }
-  const double points = static_cast<double>(contact.pressure.size());
+  solution.pressure *= unit;
+  solution.gap *= s.period.rms_height;
+  contact.pressure.assign(solution.pressure.begin(), solution.pressure.end());
+  contact.gap.assign(solution.gap.begin(), solution.gap.end());
   contact.contact_area = area(contact.pressure, contact.shape, contact.contact_area_raw);
   // u is h + gap + delta of mean 0
-  contact.elastic_energy = (work - s.way.pressure * gap) / points / 2;
+  const auto heights = Eigen::ArrayXd::Map(s.period.heights.data(), solution.pressure.size());
+  contact.elastic_energy = ((solution.pressure * heights).mean() - s.way.pressure * solution.gap.mean()) / 2;
   add_friction(s, c, contact);
   return contact;
 }
@@ -140,20 +135,20 @@ PeriodContact slide_period(const Period& period, HeightMap::PixelSize pixel_size
   const Compliance c = compliance_on(s, period.shape);
   const auto [problem, unit] = problem_on(s, period.shape, c);
 
-  ContactSolution solution{complete_contact(problem), {}, 0, 0, true};
-  if (solution.pressure.empty()) {
+  ContactSolution solution{{}, Eigen::ArrayXd::Zero(problem.heights.size()), 0, 0, true};
+  if (auto pressure = complete_contact(problem)) {
+    solution.pressure = *std::move(pressure);
+  } else {
     std::vector<Grid> grids{period.shape};
     while (std::min(grids.back()[0], grids.back()[1]) >= 2 * coarsest)
       grids.push_back({(grids.back()[0] + 1) / 2, (grids.back()[1] + 1) / 2});
-    std::vector<double> start;
+    Eigen::ArrayXd start;
     for (std::size_t level = grids.size(); level-- > 1;) {
       const auto [coarse, _] = problem_on(s, grids[level], compliance_on(s, grids[level]));
-      start = resampled(solve_contact(coarse, std::move(start), std::max(rtol, coarse_tolerance), course).pressure,
-                        grids[level], grids[level - 1]);
+      const ContactSolution found = solve_contact(coarse, std::move(start), std::max(rtol, coarse_tolerance), course);
+      start = resampled(found.pressure.data(), grids[level], grids[level - 1]);
     }
     solution = solve_contact(problem, std::move(start), rtol, course);
-  } else {
-    solution.gap.assign(solution.pressure.size(), 0.0);
   }
   const bool converged = solution.converged;
   const int steps = solution.steps;
