@@ -2,6 +2,7 @@
 // weights are a sine and a cosine, whose squares add up to 1: waves that do not know of each other keep their variance,
 // but skewed heights become Gaussian, and worn surfaces get peaks. Blended, over two of the shortest waves, weights add
 // up to 1: heights stay between those that were measured.
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -21,22 +22,18 @@ namespace {
 
 constexpr std::size_t fewest = 16;  // points along a side
 
+using Heights = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// The mean taken off, in two passes: the first height may be kilometres above them all.
-void centre(std::vector<double>& heights) {
-  for (int pass = 0; pass < 2; ++pass) {
-    double sum = 0;
-    const double first = pass == 0 ? heights.front() : 0;
-    for (double& h : heights) sum += h -= first;
-    const double mean = sum / static_cast<double>(heights.size());
-    for (double& h : heights) h -= mean;
-  }
+void centre(Heights& heights) {
+  const double first = heights(0, 0);
+  heights -= first;
+  for (int pass = 0; pass < 2; ++pass) heights -= heights.mean();
 }
 
 /// The rms height, which must be there.
-double require_roughness(const std::vector<double>& heights) {
-  double square = 0;
-  for (const double h : heights) square += h * h;
-  const double rms = std::sqrt(square / static_cast<double>(heights.size()));
+double require_roughness(const Heights& heights) {
+  const double rms = std::sqrt(heights.square().mean());
   if (!(rms > 0) || !std::isfinite(rms))
     throw InvalidInput(argument("height_map") + " has an rms height of " + show(rms, 3) + " m" + must(": must have ") +
                        "roughness");
@@ -54,36 +51,14 @@ Weights weights(Continuation continuation, double share) {
   return {s * s, c * c};
 }
 
-/// One axis joined: its last `margin` points over its first ones.
-std::vector<double> joined(const std::vector<double>& heights, HeightMap::Shape shape, bool along_x,
-                           Continuation continuation, std::size_t margin) {
-  const std::size_t kept = shape[along_x ? 1 : 0] - margin;
-  const std::size_t ny = along_x ? shape[0] : kept, nx = along_x ? kept : shape[1];
-  std::vector<double> result(ny * nx);
-  for (std::size_t y = 0; y < ny; ++y) {
+/// The last `margin` rows over the first ones.
+Heights joined(const Heights& heights, Continuation continuation, std::size_t margin) {
+  const auto over = static_cast<Eigen::Index>(margin), kept = heights.rows() - over;
+  Heights result = heights.topRows(kept);
+  for (Eigen::Index y = 0; y < over; ++y) {
     heed();
-    for (std::size_t x = 0; x < nx; ++x) {
-      const std::size_t i = along_x ? x : y;
-      double h = heights[y * shape[1] + x];
-      if (i < margin) {
-        const auto [beginning, end] =
-            weights(continuation, (static_cast<double>(i) + 0.5) / static_cast<double>(margin));
-        const std::size_t other = along_x ? y * shape[1] + x + kept : (y + kept) * shape[1] + x;
-        h = beginning * h + end * heights[other];
-      }
-      result[y * nx + x] = h;
-    }
-  }
-  return result;
-}
-
-std::vector<double> mirrored(const std::vector<double>& heights, HeightMap::Shape shape) {
-  const auto [ny, nx] = shape;
-  std::vector<double> result(4 * heights.size());
-  for (std::size_t y = 0; y < 2 * ny; ++y) {
-    heed();
-    const std::size_t from = std::min(y, 2 * ny - 1 - y);
-    for (std::size_t x = 0; x < 2 * nx; ++x) result[y * 2 * nx + x] = heights[from * nx + std::min(x, 2 * nx - 1 - x)];
+    const auto [beginning, end] = weights(continuation, (static_cast<double>(y) + 0.5) / static_cast<double>(margin));
+    result.row(y) = beginning * heights.row(y) + end * heights.row(kept + y);
   }
   return result;
 }
@@ -107,34 +82,34 @@ HeightMap::Shape margins(const HeightMap& map, Continuation continuation, double
 }  // namespace
 
 Period one_period(const HeightMap& map, Continuation continuation, double shortest) {
-  Period period{map.shape(), std::vector<double>(map.shape()[0] * map.shape()[1]), 0};
-  auto& [shape, heights, rms] = period;
-  if (shape[0] < fewest || shape[1] < fewest)
-    throw InvalidInput(argument("height_map") + " has " + count(shape[0]) + " x " + std::to_string(shape[1]) +
-                       " points" + must(": must have ") + "16 or more along both sides");
+  const auto [ny, nx] = map.shape();
+  if (ny < fewest || nx < fewest)
+    throw InvalidInput(argument("height_map") + " has " + count(ny) + " x " + std::to_string(nx) + " points" +
+                       must(": must have ") + "16 or more along both sides");
   if (map.dropout_fraction() > 0)
     throw InvalidInput(argument("height_map") + " has drop-outs (" + show(100 * map.dropout_fraction(), 3) +
                        " %); call fill_dropouts() first");
-  for (std::size_t y = 0; y < shape[0]; ++y) {
+  Heights heights(ny, nx);
+  for (std::size_t y = 0; y < ny; ++y) {
     heed();
-    map.read_row(y, heights.data() + y * shape[1]);
+    map.read_row(y, heights.data() + y * nx);
   }
   centre(heights);
   if (continuation == Continuation::fade || continuation == Continuation::blend) {
     require_roughness(heights);
-    const HeightMap::Shape margin = margins(map, continuation, shortest);
-    for (const std::size_t axis : {std::size_t{1}, std::size_t{0}}) {
-      heights = joined(heights, shape, axis == 1, continuation, margin[axis]);
-      shape[axis] -= margin[axis];
-    }
+    const auto [margin_y, margin_x] = margins(map, continuation, shortest);
+    heights = joined(heights.transpose(), continuation, margin_x).transpose().eval();
+    heights = joined(heights, continuation, margin_y);
   }
   if (continuation == Continuation::mirror) {
-    heights = mirrored(heights, shape);
-    shape = {2 * shape[0], 2 * shape[1]};
+    Heights images(2 * heights.rows(), 2 * heights.cols());
+    images << heights, heights.rowwise().reverse(), heights.colwise().reverse(), heights.reverse();
+    heights.swap(images);
   }
   centre(heights);
-  rms = require_roughness(heights);
-  return period;
+  return {{static_cast<std::size_t>(heights.rows()), static_cast<std::size_t>(heights.cols())},
+          {heights.data(), heights.data() + heights.size()},
+          require_roughness(heights)};
 }
 
 HeightMap continued(const HeightMap& map, Continuation continuation) {
