@@ -9,6 +9,7 @@
 #include "asperity/spectrum.hpp"
 #include "asperity/watch.hpp"
 #include "numerics/arguments.hpp"
+#include "numerics/gauss_legendre.hpp"
 #include "numerics/roots.hpp"
 #include "spectrum/harmonics.hpp"
 #include "spectrum/segments.hpp"
@@ -59,16 +60,19 @@ double Segment::density_at(double offset) const {
 }
 
 double Segment::moment(int n, double q) const {
-  if (!straight) return at_a * std::pow(a, n + 1) * exponential_integral(n + 1 + slope, offset(q));
-  // a polynomial of degree 6 at most: the Gauss rule of four points is exact
-  const double middle = a + (q - a) / 2, half = (q - a) / 2, root = std::sqrt(1.2);
-  const auto pair = [&](double square, double weight) {
-    const double node = std::sqrt(square) * half;
-    const auto f = [&](double at) { return std::pow(at, n) * density(at); };
-    return weight * (f(middle - node) + f(middle + node));
-  };
-  return half * (pair((3 - 2 * root) / 7, (18 + std::sqrt(30.0)) / 36) +
-                 pair((3 + 2 * root) / 7, (18 - std::sqrt(30.0)) / 36));
+  if (!straight) {
+    double power = a * a;
+    for (int k = 1; k < n; k += 2) power *= a * a;
+    return at_a * power * exponential_integral(n + 1 + slope, offset(q));
+  }
+  static const LegendreRule& rule = legendre_rule(4);  // exact for a polynomial of degree 6
+  const double half = (q - a) / 2;
+  double sum = 0;
+  for (std::size_t i = 0; i < rule.n; ++i) {
+    const double at = a + half * (1 + rule.node[i]);
+    sum += half * rule.weight[i] * std::pow(at, n) * density(at);
+  }
+  return sum;
 }
 
 std::vector<Segment> segments(const Spectrum& spectrum) {

@@ -56,7 +56,6 @@ RoughnessWindow::RoughnessWindow(std::span<const Segment> surface) : surface_(su
   before_.reserve(surface.size());
   for (const Segment& segment : surface) {
     before_.push_back(sum);
-    at_start_.push_back(segment.at_a * (segment.a * segment.a) * (segment.a * segment.a));
     sum += segment.moment(3, segment.b);
   }
   total_ = sum;
@@ -88,14 +87,6 @@ double RoughnessWindow::mean_of_last() {
   return sum / found;
 }
 
-/// From the start of a segment on.
-double RoughnessWindow::up_to(std::size_t index, double wavenumber) const {
-  const Segment& segment = surface_[index];
-  if (segment.straight) return segment.moment(3, wavenumber);
-  const double power = 4 + segment.slope, s = segment.offset(wavenumber);
-  return at_start_[index] * (power == 0 ? s : std::expm1(power * s) / power);
-}
-
 std::size_t RoughnessWindow::segment_at(double wavenumber) const {
   const auto above = std::ranges::lower_bound(surface_, wavenumber, {}, &Segment::b);
   return std::min(static_cast<std::size_t>(above - surface_.begin()), surface_.size() - 1);
@@ -103,9 +94,10 @@ std::size_t RoughnessWindow::segment_at(double wavenumber) const {
 
 double RoughnessWindow::between(double lower, double upper) const {
   const std::size_t first = segment_at(lower), last = segment_at(upper);
-  const double head = up_to(first, std::fmin(lower, surface_[first].b));
-  if (first == last) return up_to(last, upper) - head;
-  return (before_[first + 1] - before_[first] - head) + (before_[last] - before_[first + 1]) + up_to(last, upper);
+  const double head = surface_[first].moment(3, std::fmin(lower, surface_[first].b));
+  const double tail = surface_[last].moment(3, upper);
+  if (first == last) return tail - head;
+  return (before_[first + 1] - before_[first] - head) + (before_[last] - before_[first + 1]) + tail;
 }
 
 namespace {

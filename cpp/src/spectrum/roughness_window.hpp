@@ -37,12 +37,11 @@ class RoughnessWindow {
  private:
   /// int q^3 C dq from one wavenumber to another.
   [[nodiscard]] double between(double lower, double upper) const;
-  [[nodiscard]] double up_to(std::size_t index, double wavenumber) const;
   [[nodiscard]] std::size_t segment_at(double wavenumber) const;
   [[nodiscard]] double mean_of_last();
 
   std::span<const Segment> surface_;
-  std::vector<double> before_, at_start_;  // of each segment: the integral up to it, and c where it starts
+  std::vector<double> before_;  // the integral up to each segment
   double total_ = 0, end_, last_from_;
 };
 

@@ -1,6 +1,7 @@
 // A spectrum as the pieces on which it is one power law or one straight line, and its changes row by row.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,7 +41,7 @@ TabulatedSpectrum truncated_table(const TabulatedSpectrum& table, double q0, std
 TabulatedSpectrum scaled_table(const TabulatedSpectrum& table, double factor);
 
 /// int_0^L exp(e x) dx, for any e including 0.
-double exponential_integral(double e, double length);
+inline double exponential_integral(double e, double length) { return e == 0 ? length : std::expm1(e * length) / e; }
 
 /// The slope of ln C in ln q above the roll-off.
 double fall(const SelfAffineSpectrum& s);

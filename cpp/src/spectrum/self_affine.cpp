@@ -28,8 +28,6 @@ double height_per_density(const SelfAffineSpectrum& s) {
 
 }  // namespace
 
-double exponential_integral(double e, double length) { return e == 0 ? length : std::expm1(e * length) / e; }
-
 double fall(const SelfAffineSpectrum& s) { return -2 * (s.hurst + 1); }
 
 double density_at_rolloff(const SelfAffineSpectrum& s) {
