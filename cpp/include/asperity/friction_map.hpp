@@ -350,7 +350,8 @@ enum class Part { outer, cold, across };
 constexpr std::uint32_t layout = 4;
 constexpr std::size_t head_size = 192;
 constexpr std::size_t corner_size = 2, block_size = 32;     // numbers of a cell: its corner, then one block or more
-constexpr double long_slid = 1e300;                         // [m]
+constexpr double tiny = 1e-300, huge = 1e300;               // limits of numbers in the file
+constexpr double long_slid = huge;                          // [m]
 constexpr std::uint32_t most_bands = 64, most_nested = 64;  // what a look-up goes through is bounded
 
 }  // namespace map_detail
@@ -1284,7 +1285,6 @@ struct Head {
 
   /// From a file of that many bytes; false where it contradicts itself.
   bool read(Reader& in, FrictionMapInfo& info, std::uint64_t size, Part part) noexcept {
-    constexpr double tiny = 1e-300, huge = 1e300;
     bool good = in.numbers({&info.pressure[0], &info.pressure[1], &info.velocity[0], &info.velocity[1]}, tiny, huge);
     good = in.numbers({&info.temperature[0], &info.temperature[1]}, 0, 1e6) && good;
     good = in.numbers({&info.rtol, &info.max_error, &info.largest_checked_error, &info.memory_error, &info.shear_stress,

@@ -35,9 +35,8 @@ struct SplineBasis {
 
 /// The four cubic B-splines that are not zero at t in [0, 1] of an interval.
 inline std::array<double, 4> cubic_basis(double t) {
-  constexpr double sixth = 1.0 / 6, two_thirds = 2.0 / 3;
   const double s = 1 - t;
-  return {sixth * s * s * s, t * t * (0.5 * t - 1) + two_thirds, s * s * (0.5 * s - 1) + two_thirds, sixth * t * t * t};
+  return {1.0 / 6 * s * s * s, t * t * (0.5 * t - 1) + 2.0 / 3, s * s * (0.5 * s - 1) + 2.0 / 3, 1.0 / 6 * t * t * t};
 }
 
 /// The coefficients c that minimise |y - B c|^2 + sum_j lambda_j (third difference j of c)^2.

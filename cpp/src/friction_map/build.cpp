@@ -116,15 +116,14 @@ void check(const MapFrame& frame, const std::vector<unsigned char>& file, const 
                        std::to_string(request.checked) + " random points");
 }
 
-// Limits of the numbers in the file.
-constexpr double smallest = 1e-300, largest = 1e300;
+using map_detail::huge, map_detail::tiny;
 constexpr double least_range = 0.1;  // of temperatures [K]
 
 void check_request(const MapRequest& request, const std::optional<Adhesion>& adhesion) {
   for (const auto& [name, box] : {std::pair{"pressure", request.pressure}, std::pair{"velocity", request.velocity}}) {
     for (const double side : box) {
       require_positive(name, side);
-      if (side < smallest || side > largest) refuse(name, side, "in [1e-300, 1e300]");
+      if (side < tiny || side > huge) refuse(name, side, "in [1e-300, 1e300]");
     }
     if (!(box[0] * (1 + 1e-6) < box[1]))
       throw InvalidInput(argument(name) + " = " + pair(box[0], box[1]) +
@@ -135,8 +134,8 @@ void check_request(const MapRequest& request, const std::optional<Adhesion>& adh
   validate(*adhesion);
   for (const auto& [name, value] : {std::pair{"shear_stress", adhesion->shear_stress},
                                     std::pair{"reference_velocity", adhesion->reference_velocity}})
-    if (value != 0 && (value < smallest || value > largest)) refuse(name, value, "in [1e-300, 1e300] for a map");
-  if (adhesion->width > largest) refuse("width", adhesion->width, "at most 1e300 for a map");
+    if (value != 0 && (value < tiny || value > huge)) refuse(name, value, "in [1e-300, 1e300] for a map");
+  if (adhesion->width > huge) refuse("width", adhesion->width, "at most 1e300 for a map");
 }
 
 void check_temperature(const std::array<double, 2>& temperature) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "asperity/build_friction_map.hpp"
@@ -95,7 +94,7 @@ const MapLoops& map_loops() {
   return chosen;
 }
 
-constexpr std::size_t block = 512;
+constexpr std::size_t capacity = 512;  // points of a block
 
 }  // namespace
 
@@ -215,9 +214,8 @@ class FrictionMapBatch {
   /// Whether a map takes these temperatures and distances; finds the steps of the temperature.
   bool plain(const MapColumns& points, const double* background, const double* distance, const double* direction,
              std::size_t n) {
-    constexpr double any = std::numeric_limits<double>::infinity();
     const auto entries = [n](std::span<const double> of) { return of.size() > 1 ? n : 1; };
-    if (!points.distance.empty() && !loops_.all_within(distance, 0, any, entries(points.distance))) return false;
+    if (!points.distance.empty() && !loops_.all_within(distance, 0, HUGE_VAL, entries(points.distance))) return false;
     if (!loops_.all_within(direction, -1e300, 1e300, entries(points.direction))) return false;
     if (!map_.info_.heat) return points.background.empty() && map_.steps_ == 0;
     if (!is_one(points.a_T) || shifts_adhesion_) return false;
@@ -335,13 +333,14 @@ class FrictionMapBatch {
   const MapLoops& loops_;
   std::vector<map_detail::Line> at_shared_T0_;  // the cells' polynomials of a map of this T0, or none
   double shared_log_a_T_ = 0;
-  double pressure_[block], velocity_[block], a_T_[block], background_[block], distance_[block], direction_[block];
-  double x_[block], speed_[block], ln_p_[block], z_[block];
-  double hot_h_[block], hot_a_[block], cold_h_[block], cold_a_[block];
+  double pressure_[capacity], velocity_[capacity], a_T_[capacity], background_[capacity], distance_[capacity],
+      direction_[capacity];
+  double x_[capacity], speed_[capacity], ln_p_[capacity], z_[capacity];
+  double hot_h_[capacity], hot_a_[capacity], cold_h_[capacity], cold_a_[capacity];
   LogarithmsOfBoth hot_{hot_h_, hot_a_}, cold_{cold_h_, cold_a_};
-  double dT_[block], ln_s0_[block], slanted_x_[block];
-  double offset_slope_[block], h_x_[block], a_x_[block], h_z_[block], a_z_[block];
-  std::int32_t cell_[block], step_[block];
+  double dT_[capacity], ln_s0_[capacity], slanted_x_[capacity];
+  double offset_slope_[capacity], h_x_[capacity], a_x_[capacity], h_z_[capacity], a_z_[capacity];
+  std::int32_t cell_[capacity], step_[capacity];
 };
 
 namespace {
@@ -357,9 +356,9 @@ std::size_t in_blocks(const MapColumns& points, const char* name, std::size_t n,
         std::pair{"direction", points.direction}})
     if (column.size() > 1) require_same_size(column_name, column.size(), name, n);
   std::size_t first_bad = n;
-  for (std::size_t i = 0; i < n; i += block) {
+  for (std::size_t i = 0; i < n; i += capacity) {
     heed();
-    const std::size_t many = std::min(block, n - i), good = act(i, many);
+    const std::size_t many = std::min(capacity, n - i), good = act(i, many);
     if (good < many) first_bad = std::min(first_bad, i + good);
   }
   return first_bad;

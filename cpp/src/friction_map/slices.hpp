@@ -21,8 +21,6 @@ struct MapSlopes {
   std::array<double, 2> f, x, z, xz;
 };
 
-inline constexpr std::size_t map_points = 12;  // of a polynomial in one variable
-
 /// Patches of 12 x 12 points with the polynomial through them over ln v and the load ln(p p_T), p_T being that of a
 /// Greenwood-Williamson correction: without it there are no kinks, and of the modulus at a single frequency none is
 /// passed on. They are halved in either until they keep a twentieth of rtol,
@@ -34,6 +32,7 @@ class MapPatches {
   /// Beyond, what patches are off by is told and not mended: a map at 1e-4 takes a few hundred, at 1e-7 a few thousand,
   /// and each of them 166 points of the solver.
   static constexpr std::size_t most = 5000;
+  static constexpr std::size_t n = 12;  // points of a polynomial in one variable
 
   /// Makes the patches that the box touches; `progress` hears of the share that is done.
   MapPatches(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress);
@@ -45,7 +44,6 @@ class MapPatches {
   [[nodiscard]] MapSlopes slopes(std::uint32_t band, const MapPlace& place);
 
  private:
-  static constexpr std::size_t n = map_points;
   using Vector = Eigen::Matrix<double, n, 1>;
   using Matrix = Eigen::Matrix<double, n, n, Eigen::RowMajor>;
   struct Patch {
@@ -106,7 +104,7 @@ class MapSlices {
   [[nodiscard]] std::vector<MapSample> column(const MapPlace& place);
 
  private:
-  static constexpr std::size_t n = map_points;
+  static constexpr std::size_t n = MapPatches::n;
   using Weights = std::array<double, n>;
   struct Interval {
     double lower, upper, error = 0;

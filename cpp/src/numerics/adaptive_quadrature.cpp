@@ -15,8 +15,6 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t nodes = 20;
-
 struct Part {
   double lower, upper;
   Integral of;
@@ -48,7 +46,7 @@ Integral by_bisection(const Integrand& f, double lower, double upper, double rto
 
 /// The last two Legendre coefficients c_k of f bound its error amply: a Gauss rule integrates twice as high degrees.
 Integral integrate_smooth(const Integrand& f, double lower, double upper) {
-  static const LegendreRule& rule = legendre_rule(nodes);
+  static const LegendreRule& rule = legendre_rule(20);
   const double half = (upper - lower) / 2, middle = lower + half;
   double sum = 0, last = 0, before = 0;
   for (std::size_t i = 0; i < rule.n; ++i) {
