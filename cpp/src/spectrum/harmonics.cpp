@@ -207,7 +207,7 @@ TabulatedSpectrum table_of(const SelfAffineSpectrum& s) {
       harmonics.sine.push_back(share * std::sin(angle));
     }
   TabulatedSpectrum result(std::move(q), std::move(c), {}, std::move(harmonics));
-  result.surface().law_from = from;
+  result.surface().law_from = s.rolloff.value_or(s.q0);
   return result;
 }
 
