@@ -70,9 +70,9 @@ double Segment::moment(int n, double q) const {
   double sum = 0;
   for (std::size_t i = 0; i < rule.n; ++i) {
     const double at = a + half * (1 + rule.node[i]);
-    sum += half * rule.weight[i] * std::pow(at, n) * density(at);
+    sum += rule.weight[i] * (std::pow(at, n) * density(at));
   }
-  return sum;
+  return half * sum;
 }
 
 std::vector<Segment> segments(const Spectrum& spectrum) {
