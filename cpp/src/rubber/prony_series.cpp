@@ -179,9 +179,10 @@ bool PronySeries::angular_integrals(std::span<const double> w, std::span<double>
   const double fastest = longest_ > 0 ? largest_x / longest_ : std::numeric_limits<double>::max();
   const PronyTerms terms{moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_};
   const std::size_t n = w.size(), whole = n - n % lanes;
-  std::vector<double> first(count * lanes), second(count * lanes);
+  std::vector<double> first, second;
   double at[lanes], of_i1[lanes], of_i2[lanes];
   const auto take_lanes = [&](std::size_t i) {
+    for (auto* const row : {&first, &second}) row->resize(count * lanes);
     for (std::size_t k = 0; k < lanes; ++k) at[k] = std::fmin(w[std::min(i + k, n - 1)], fastest);
     kernels().prony_harmonics(terms, at, lanes, lanes, count, of_i1, of_i2, first.data(), second.data());
     for (std::size_t j = 0; j < count; ++j)

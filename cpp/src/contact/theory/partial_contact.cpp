@@ -101,6 +101,7 @@ void PartialContactTheory::take(const NodeModulus& modulus) {
   const double* const about = modulus.about.empty() ? i2_.data() + beyond.about : modulus.about.data();
   steepness_ = Eigen::Map<const VectorXd>(beyond.window.data(), n).cwiseProduct(Eigen::Map<const VectorXd>(about, n));
   stress_.resize(n);
+  share_.resize(n);
   end_.g = unit_g();
   end_.window = beyond.end->window;
   if (count == 0) return;
@@ -118,7 +119,7 @@ const ContactSums& PartialContactTheory::solve(double scale, double rtol, double
   end_.band = {grid_.beyond().end->factor, excess_ = excess(), crossed_};
   const PartialNodes nodes{g_.data(), steepness_.data(), weight_.data(), ratio_.data(),
                            static_cast<std::size_t>(g_.size())};
-  sums_ = partial_root(nodes, end_, scale, rtol, start, stress_.data());
+  sums_ = partial_root(nodes, end_, scale, rtol, start, share_.data(), stress_.data());
   kappa_ = sums_.kappa;
   edges_ = sums_.edges;
   obstacle_ = sums_.obstacle;
@@ -325,11 +326,10 @@ void PartialContactTheory::gradient(const ContactNumber& number, ContactGradient
 }
 
 VectorXd PartialContactTheory::steering() const {
-  VectorXd share = kappa_ * scale_ * g_;
-  contact_shares(share.data(), static_cast<std::size_t>(share.size()), share.data());
   static_assert(partial_contact::steering == 0.125);
-  share = share.cwiseSqrt().cwiseSqrt().cwiseSqrt();
-  return share;
+  VectorXd result(share_.size());
+  eighth_roots(share_.data(), static_cast<std::size_t>(share_.size()), result.data());
+  return result;
 }
 
 double PartialContactTheory::stress_at(double g, double wavenumber, double i2) const {

@@ -52,13 +52,20 @@ bool wide() {
 
 }  // namespace
 
-PartialSums partial_sums(const PartialNodes& nodes, double scale, double obstacle, double obstacle_slope,
+PartialSums partial_sums(const PartialNodes& nodes, double scale, double obstacle, double obstacle_slope, double* share,
                          double* stress) {
   const ShareTable& table = table_of_shares();
 #ifdef __x86_64__
-  if (wide()) return avx2::sums(table, nodes, scale, obstacle, obstacle_slope, stress);
+  if (wide()) return avx2::sums(table, nodes, scale, obstacle, obstacle_slope, share, stress);
 #endif
-  return baseline::sums(table, nodes, scale, obstacle, obstacle_slope, stress);
+  return baseline::sums(table, nodes, scale, obstacle, obstacle_slope, share, stress);
+}
+
+void eighth_roots(const double* of, std::size_t n, double* result) {
+#ifdef __x86_64__
+  if (wide()) return avx2::eighth_roots(of, n, result);
+#endif
+  baseline::eighth_roots(of, n, result);
 }
 
 void contact_shares(const double* g, std::size_t n, double* share) {
