@@ -73,11 +73,12 @@ double LevelSolver::across(Level& level, const ContactSums& sums, const VectorXd
   const bool by_stress = window_ && grid.pieces();
   const auto n = static_cast<Index>(by_stress ? grid.band_size() : grid.size());
   const Eigen::Map<const Eigen::ArrayXd> lateral(level.across.data(), n), i1(level.i1.data(), n);
+  constexpr double least = 1e-300;  // where E'' is lost, no node has a part
   VectorXd sideways;
   if (by_stress)
     sideways = grid.weight().array() * level.theory->stress().array() * lateral;
   else
-    sideways = (i1 != 0).select(level.theory->part().head(n).array() * lateral / i1, 0) / scale_;
+    sideways = level.theory->part().head(n).array() * lateral / (scale_ * i1.max(least));
   sideways.head(steering.size()).array() *= steering.array();
   level.cell_across = sums_of_cells(grid, sideways);
   const double edges = by_stress ? sums.edges * grid.beyond().end->window * edges_.across : 0;

@@ -175,8 +175,8 @@ LevelSolver::Level& LevelSolver::at_velocity(Levels& levels, std::size_t number)
 double LevelSolver::outside_share(const Level& level, const ContactSums& sums) const {
   if (!(sums.friction > 0)) return 0;
   double sum = 0;
-  if (level.grid->pieces()) {
-    if (window_) sum = sums.edges * level.grid->beyond().end->window * edges_.i1_outside;
+  if (level.grid->pieces() && window_) {
+    sum = sums.edges * level.grid->beyond().end->window * edges_.i1_outside;
     const VectorXd& stress = level.theory->stress();
     for (Index i = 0; !level.i1_outside.empty() && i < stress.size(); ++i)
       sum += level.grid->weight()[i] * stress[i] * level.i1_outside[static_cast<std::size_t>(i)];
@@ -195,15 +195,15 @@ double LevelSolver::outside_share(const Level& level, const ContactSums& sums) c
 double LevelSolver::share_beyond(double wavenumber) const {
   if (!(sums_.friction > 0)) return 0;
   const ContactGrid& grid = *solved_->grid;
-  const VectorXd &stress = solved_->theory->stress(), &part = solved_->theory->part();
+  const bool by_stress = window_ && grid.pieces();
+  const VectorXd& of = by_stress ? solved_->theory->stress() : solved_->theory->part();
   double sum = 0;
-  if (window_ && grid.pieces() && window_->end() > wavenumber)
-    sum = sums_.edges * grid.beyond().end->window * edges_.i1;
+  if (by_stress && window_->end() > wavenumber) sum = sums_.edges * grid.beyond().end->window * edges_.i1;
   const std::size_t n = grid.pieces() ? grid.band_size() : grid.size();
   for (std::size_t i = 0; i < n; ++i) {
     const auto at = static_cast<Index>(i);
     if (grid.wavenumber()[i] > wavenumber)
-      sum += grid.pieces() ? grid.weight()[at] * stress[at] * solved_->i1[i] : part[at] / scale_;
+      sum += of[at] * (by_stress ? grid.weight()[at] * solved_->i1[i] : 1 / scale_);
   }
   return std::fmin(1, sum / sums_.friction);
 }

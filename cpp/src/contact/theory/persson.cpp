@@ -1,5 +1,5 @@
 // F(G) = int_0^G P S dG of Eq. 22 with G of Eq. 7. By parts on each panel dF is a measure of the nodes, so that the
-// front of F is met exactly; on pieces of rings, P S dG at their two nodes, of which the sum is made that of F.
+// front of F is met exactly; on pieces of rings, whose two nodes have what F rises and int G dF = [G F] - int F dG.
 // B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include <algorithm>
 #include <cmath>
@@ -16,49 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::RowVectorXd;
 using Eigen::VectorXd;
-
-void Theory::take(const NodeModulus& modulus) {
-  const auto n = static_cast<Index>(modulus.i2.size());
-  i2_ = Eigen::Map<const VectorXd>(modulus.i2.data(), n);
-  ratio_ = Eigen::Map<const VectorXd>(modulus.i1.data(), n).cwiseQuotient(i2_);
-  grid_.integrate(i2_, g_, g_edge_);
-  if (grid_.has_macro()) g_macro_ = grid_.macro_weight().dot(i2_);
-}
-
-void Theory::add_up(const ModulusSlopes& along, GSlopes& slopes) const {
-  const MatrixXd di2 = scale_ * (i2_.asDiagonal() * along.i2);
-  grid_.integrate(di2, slopes.node, slopes.edge);
-  slopes.macro = grid_.macro_weight().transpose() * di2;
-  if (along.scale.isZero(0)) return;
-  slopes.node += scale_ * g_ * along.scale;
-  for (std::size_t c = 0; c < g_edge_.size(); ++c)
-    slopes.edge.row(static_cast<Index>(c)) += scale_ * g_edge_[c] * along.scale;
-  slopes.macro += scale_ * g_macro_ * along.scale;
-}
-
-VectorXd Theory::back_through_g(const VectorXd& by_node, const VectorXd& by_edge) const {
-  return scale_ * grid_.integrate_back(by_node, by_edge).cwiseProduct(i2_.head(g_.size()));
-}
-
-void Theory::back_through_macro(double by_g, ContactGradient& result) const {
-  result.macro = scale_ * by_g;
-  if (by_g == 0) return;
-  const VectorXd by_node = result.macro * grid_.macro_weight().cwiseProduct(i2_);
-  result.i2 += by_node;
-  result.weight += by_node;
-  result.scale += by_node.sum();
-}
-
-double Theory::g_on(const ContactGrid::Place& place) const {
-  const ContactGrid::Cell& cell = grid_.cells()[place.cell];
-  double weights[LegendreRule::most], sum = g_edge_[place.cell];
-  integrals_to(*cell.rule, 2 * (place.t - cell.lower) / (cell.upper - cell.lower) - 1, weights);
-  for (std::size_t j = 0; j < cell.count; ++j) {
-    const auto at = static_cast<Index>(cell.first + j);
-    sum += weights[j] * grid_.weight()[at] / cell.rule->weight[j] * i2_[at];
-  }
-  return scale_ * std::fmax(sum, 0);
-}
 
 namespace {
 
@@ -89,6 +46,7 @@ class PerssonTheory final : public Theory {
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   void gradient(const ContactNumber& number, ContactGradient& result) override;
   [[nodiscard]] double front_misfit() override;
+  [[nodiscard]] const VectorXd& stress() override;  // on pieces their means
   [[nodiscard]] double stress_at(double g, double /*wavenumber*/, double /*i2*/) const override { return p_s(g); }
 
  private:
@@ -96,14 +54,16 @@ class PerssonTheory final : public Theory {
     const double p = p_of(g, form_);
     return factor_ ? p * (*factor_)(p) : p;
   }
-  [[nodiscard]] double p_s_slope(double g, double share) const {
-    const double slope = contact_slope(g, form_), gamma = contact_.gamma;
-    return factor_ ? slope * (gamma + 3 * (1 - gamma) * (share * share)) : slope;
-  }
   void integral_of(const double* g, Index n, double* f) const;
   void integrate_to(double scale);
   void take_stress();
   void take_columns();
+  [[nodiscard]] double rise_of(std::size_t cell) const { return f_edge_[cell + 1] - f_edge_[cell]; }
+  [[nodiscard]] double upper_of(std::size_t piece) const {
+    const double* const f = &f_[static_cast<Index>(2 * piece)];
+    const Upper& by = upper_[piece];
+    return by.rise * rise_of(piece) - by.first * f[0] - by.second * f[1];
+  }
   [[nodiscard]] VectorXd shares_of(const Eigen::Ref<const VectorXd>& g) const;
   void multiply_by_s(VectorXd& shares) const;
 
@@ -111,10 +71,17 @@ class PerssonTheory final : public Theory {
   std::optional<SFunction> factor_;
   ContactIntegral contact_;
   AreaG area_g_;
-  VectorXd g_at_load_, share_, f_;     // F less that where its panel begins
-  std::vector<double> edge_, f_edge_;  // G and F at the ends of cells, at the load
-  bool part_is_of_load_ = false, columns_are_of_modulus_ = false;
-  MatrixXd columns_, end_columns_;  // of panels: from F at nodes, and from its rise, to friction and to that times ln q
+  /// dF of the upper node of a piece is rise (F2 - F1) - first (F at the lower node - F1) - second (at the upper one).
+  struct Upper {
+    double rise, first, second;
+  };
+  std::vector<Upper> upper_;
+  std::vector<double> edge_, f_edge_;    // G and F at the ends of cells, at the load
+  VectorXd g_at_load_, f_;               // at the nodes, F less that where their cell begins
+  MatrixXd columns_, end_columns_;       // of panels: friction, and that times ln q, by F of nodes and by its rise
+  VectorXd measure_;                     // dF
+  bool columns_are_of_modulus_ = false;  // and of the load:
+  bool part_is_of_load_ = false, stress_is_of_load_ = false;
 };
 
 /// F at values of G; their number is a multiple of `lanes`.
@@ -138,63 +105,77 @@ void PerssonTheory::multiply_by_s(VectorXd& shares) const {
   if (factor_) shares.array() *= gamma + (1 - gamma) * (shares.array() * shares.array());
 }
 
-/// P and P S at the nodes.
-void PerssonTheory::take_stress() {
-  share_ = shares_of(g_at_load_);
-  stress_ = share_;
-  multiply_by_s(stress_);
-}
-
 void PerssonTheory::take(const NodeModulus& modulus) {
   Theory::take(modulus);
   columns_are_of_modulus_ = false;
+  upper_.clear();
+  for (std::size_t c = 0; grid_.pieces() && c < grid_.cells().size(); ++c) {
+    const auto i = static_cast<Index>(2 * c);
+    const double apart = g_[i + 1] - g_[i], by = apart > 0 ? 1 / apart : 0;
+    upper_.push_back(
+        {(g_edge_[c + 1] - g_[i]) * by, grid_.weight()[i] * i2_[i] * by, grid_.weight()[i + 1] * i2_[i + 1] * by});
+  }
+}
+
+const VectorXd& PerssonTheory::stress() {
+  if (stress_is_of_load_) return stress_;
+  stress_is_of_load_ = true;
+  if (!grid_.pieces()) {
+    take_stress();
+    return stress_;
+  }
+  stress_.resize(g_.size());
+  for (std::size_t c = 0; c < upper_.size(); ++c) {
+    const double apart = edge_[c + 1] - edge_[c];
+    stress_.segment<2>(static_cast<Index>(2 * c)).setConstant(apart > 0 ? (f_edge_[c + 1] - f_edge_[c]) / apart : 0);
+  }
+  return stress_;
+}
+
+/// At the nodes.
+void PerssonTheory::take_stress() {
+  stress_ = shares_of(g_at_load_);
+  multiply_by_s(stress_);
 }
 
 /// G and F at the nodes and at the ends of cells at a load.
 void PerssonTheory::integrate_to(double scale) {
   scale_ = scale;
-  part_is_of_load_ = false;
+  part_is_of_load_ = stress_is_of_load_ = false;
   edge_.resize((g_edge_.size() + lanes - 1) / lanes * lanes, 1.0);
   for (std::size_t i = 0; i < g_edge_.size(); ++i) edge_[i] = scale * g_edge_[i];
   f_edge_.resize(edge_.size());
   integral_of(edge_.data(), std::ssize(edge_), f_edge_.data());
   g_at_load_ = scale * g_;
-  if (grid_.pieces()) {
-    take_stress();
-    return;
-  }
   f_.resize(g_.size());
   integral_of(g_at_load_.data(), f_.size(), f_.data());
-  for (std::size_t c = 0; c < grid_.cells().size(); ++c) {
-    const ContactGrid::Cell& cell = grid_.cells()[c];
-    f_.segment(static_cast<Index>(cell.first), static_cast<Index>(cell.count)).array() -= f_edge_[c];
-  }
+  const auto& cells = grid_.cells();
+  if (grid_.pieces())
+    for (std::size_t c = 0; c < upper_.size(); ++c) f_.segment<2>(static_cast<Index>(2 * c)).array() -= f_edge_[c];
+  else
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      f_.segment(static_cast<Index>(cells[c].first), static_cast<Index>(cells[c].count)).array() -= f_edge_[c];
 }
 
 const VectorXd& PerssonTheory::part() {
   if (part_is_of_load_) return part_;
   part_is_of_load_ = true;
-  part_.setZero(i2_.size());
-  if (grid_.pieces()) {  // the nodes share what F rises
-    const VectorXd& weight = grid_.weight();
-    for (std::size_t c = 0; c < grid_.cells().size(); ++c) {
-      const auto i = static_cast<Index>(2 * c), k = i + 1;
-      const double first = weight[i] * i2_[i] * stress_[i], second = weight[k] * i2_[k] * stress_[k];
-      const double sum = first + second, rise = f_edge_[c + 1] - f_edge_[c];
-      const double factor = sum > 0 ? rise / sum : 0;
-      part_[i] = ratio_[i] * (first * factor);
-      part_[k] = ratio_[k] * (second * factor);
-    }
-    return part_;
+  measure_.resize(f_.size());
+  for (std::size_t c = 0; c < upper_.size(); ++c) {
+    const auto i = static_cast<Index>(2 * c);
+    measure_[i + 1] = upper_of(c);
+    measure_[i] = rise_of(c) - measure_[i + 1];
   }
-  for (std::size_t c = 0; c < grid_.cells().size(); ++c) {
-    const ContactGrid::Cell& cell = grid_.cells()[c];
-    const auto first = static_cast<Index>(cell.first), count = static_cast<Index>(cell.count);
-    auto part = part_.segment(first, count);
-    part = (f_edge_[c + 1] - f_edge_[c]) * Eigen::Map<const VectorXd>(cell.rule->at_upper, count);
-    part -= slopes_of(*cell.rule).transpose().lazyProduct(f_.segment(first, count));
-    part.array() *= ratio_.segment(first, count).array();
+  const auto& cells = grid_.cells();
+  for (std::size_t c = 0; !grid_.pieces() && c < cells.size(); ++c) {
+    const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
+    auto measure = measure_.segment(first, count);
+    measure = -slopes_of(*cells[c].rule).transpose().lazyProduct(f_.segment(first, count));
+    measure += rise_of(c) * Eigen::Map<const VectorXd>(cells[c].rule->at_upper, count);
   }
+  part_.resize(i2_.size());
+  part_.tail(i2_.size() - f_.size()).setZero();
+  part_.head(f_.size()) = ratio_.head(f_.size()).cwiseProduct(measure_);
   return part_;
 }
 
@@ -234,22 +215,22 @@ void PerssonTheory::take_columns() {
 
 const ContactSums& PerssonTheory::solve(double scale, double /*rtol*/, double /*start*/) {
   integrate_to(scale);
-  const auto cells = std::ssize(grid_.cells());
-  cell_part_.resize(cells);
-  if (grid_.pieces()) {
-    (void)part();
-    for (Index c = 0; c < cells; ++c) cell_part_[c] = part_[2 * c] + part_[2 * c + 1];
-  } else {
+  const auto& cells = grid_.cells();
+  cell_part_.resize(std::ssize(cells));
+  for (std::size_t c = 0; c < upper_.size(); ++c) {
+    const auto i = static_cast<Index>(2 * c);
+    const double upper = upper_of(c);
+    cell_part_[static_cast<Index>(c)] = ratio_[i] * (rise_of(c) - upper) + ratio_[i + 1] * upper;
+  }
+  if (!grid_.pieces()) {
     if (!columns_are_of_modulus_) take_columns();
     double by_place = 0;
-    for (Index c = 0; c < cells; ++c) {
-      const auto at = static_cast<std::size_t>(c);
-      const ContactGrid::Cell& cell = grid_.cells()[at];
-      const auto first = static_cast<Index>(cell.first), count = static_cast<Index>(cell.count);
-      const double rise = f_edge_[at + 1] - f_edge_[at];
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count),
+                 at = static_cast<Index>(c);
       const auto f = f_.segment(first, count);
-      cell_part_[c] = rise * end_columns_(c, 0) - columns_.col(0).segment(first, count).dot(f);
-      by_place += rise * end_columns_(c, 1) - columns_.col(1).segment(first, count).dot(f);
+      cell_part_[at] = rise_of(c) * end_columns_(at, 0) - columns_.col(0).segment(first, count).dot(f);
+      by_place += rise_of(c) * end_columns_(at, 1) - columns_.col(1).segment(first, count).dot(f);
     }
     const double whole = cell_part_.sum();
     mean_place_ = whole > 0 ? by_place / whole : 0;
@@ -283,7 +264,7 @@ double PerssonTheory::front_misfit() {
     multiply_by_s(stress);
     const double rule =
         (grid_.weight().segment(first, count).array() * i2_.segment(first, count).array() * stress.array()).sum();
-    result += std::fabs((f_edge_[c + 1] - f_edge_[c]) / scale_ - rule) * apart / 2;
+    result += std::fabs(rise_of(c) / scale_ - rule) * apart / 2;
   }
   return result;
 }
@@ -308,18 +289,20 @@ void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& res
       part += at_upper * (p_s(edge_[c + 1]) * slopes.edge.row(edge + 1)) -
               at_lower * (p_s(edge_[c]) * slopes.edge.row(edge));
       part = ratio_.segment(first, count).asDiagonal() * part;
-    } else {  // the nodes share what F rises
-      const double rise = f_edge_[c + 1] - f_edge_[c];
-      if (!(rise > 0)) continue;
-      RowVectorXd whole =
-          (p_s(edge_[c + 1]) * slopes.edge.row(edge + 1) - p_s(edge_[c]) * slopes.edge.row(edge)) / rise;
-      for (Index i = 0; i < count; ++i) {
-        const Index at = first + i;
-        if (!(ratio_[at] > 0 && stress_[at] > 0)) continue;
-        part.row(i) = along.i2.row(at) + (p_s_slope(g_at_load_[at], share_[at]) / stress_[at]) * slopes.node.row(at);
-        whole -= part_[at] / ratio_[at] / rise * part.row(i);
-      }
-      for (Index i = 0; i < count; ++i) part.row(i) = part_[first + i] * (part.row(i) + whole);
+    } else {
+      const auto& [by_rise, by_first, by_second] = upper_[c];
+      const double rise = rise_of(c), apart = g_at_load_[first + 1] - g_at_load_[first];
+      const RowVectorXd from_slope = p_s(edge_[c]) * slopes.edge.row(edge),
+                        rise_slope = p_s(edge_[c + 1]) * slopes.edge.row(edge + 1) - from_slope;
+      RowVectorXd upper = by_rise * rise_slope;
+      if (apart > 0)
+        upper += (rise * slopes.edge.row(edge + 1) - measure_[first] * slopes.node.row(first) -
+                  measure_[first + 1] * slopes.node.row(first + 1)) /
+                 apart;
+      for (const auto& [i, by] : {std::pair(first, by_first), std::pair(first + 1, by_second)})
+        upper -= by * (p_s(g_at_load_[i]) * slopes.node.row(i) - from_slope + f_[i] * (along.i2.row(i) + along.scale));
+      part.row(0) = ratio_[first] * (rise_slope - upper);
+      part.row(1) = ratio_[first + 1] * upper;
     }
   }
   result.part.topRows(n) += part_.head(n).asDiagonal() * along.ratio.topRows(n);
@@ -338,7 +321,7 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
   result.i2.setZero(i2_.size());
   result.weight.setZero(i2_.size());
   result.window.setZero(n);
-  if (!grid_.pieces()) take_stress();
+  take_stress();
   VectorXd at_edges = shares_of(VectorXd::Map(edge_.data(), std::ssize(edge_)));
   multiply_by_s(at_edges);
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -353,15 +336,17 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
       for (Index i = 0; i < count; ++i) by_node[first + i] = stress_[first + i] * by_f[i];
       by_edge[edge + 1] += at_end * at_upper.dot(by_measure);
       by_edge[edge] -= before * at_lower.dot(by_measure);
-    } else {  // the nodes share what F rises
-      const double whole = result.ratio[first] + result.ratio[first + 1], rise = f_edge_[c + 1] - f_edge_[c];
-      if (!(rise > 0)) continue;
-      by_edge[edge + 1] += at_end * whole / rise;
-      by_edge[edge] -= before * whole / rise;
-      for (Index i = first; i < first + count; ++i) {
-        if (!(ratio_[i] > 0 && stress_[i] > 0)) continue;
-        result.weight[i] = result.ratio[i] - whole * (part_[i] / ratio_[i]) / rise;
-        by_node[i] = result.weight[i] * p_s_slope(g_at_load_[i], share_[i]) / stress_[i];
+    } else {
+      const auto& [by_rise, by_first, by_second] = upper_[c];
+      const double rise = rise_of(c), apart = g_at_load_[first + 1] - g_at_load_[first];
+      const double by_lower = number.by_part[first] * ratio_[first],
+                   by_upper = number.by_part[first + 1] * ratio_[first + 1] - by_lower,
+                   per_g = apart > 0 ? by_upper / apart : 0, whole = by_lower + by_upper * by_rise;
+      by_edge[edge + 1] += at_end * whole + per_g * rise;
+      by_edge[edge] -= before * (whole - by_upper * (by_first + by_second));
+      for (const auto& [i, by] : {std::pair(first, by_first), std::pair(first + 1, by_second)}) {
+        by_node[i] = -stress_[i] * by_upper * by - per_g * measure_[i];
+        result.weight[i] = -by_upper * by * f_[i];
       }
     }
   }
@@ -370,7 +355,7 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
   const VectorXd through_g = back_through_g(by_node, by_edge);
   result.weight.head(n) += through_g;
   result.i2.head(n) = result.weight.head(n);
-  result.scale = through_g.sum();
+  result.scale = result.weight.sum();
   back_through_macro(number.by_macro * contact_slope(scale_ * g_macro_, form_), result);
 }
 

@@ -114,7 +114,7 @@ class Theory {
   [[nodiscard]] double unit_g_before(const ContactGrid::Place& place) const { return g_edge_[place.cell]; }
   /// Of the band's nodes: G at unit load, and what stands where Eq. 22 has P S.
   [[nodiscard]] const Eigen::VectorXd& node_g() const { return g_; }
-  [[nodiscard]] const Eigen::VectorXd& stress() const { return stress_; }
+  [[nodiscard]] virtual const Eigen::VectorXd& stress() { return stress_; }
   /// Of all nodes: I1 / I2.
   [[nodiscard]] const Eigen::VectorXd& ratio() const { return ratio_; }
 
