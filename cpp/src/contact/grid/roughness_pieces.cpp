@@ -317,17 +317,28 @@ void RoughnessPieces::add_piece(const Points& p, double upper) {
   const Line one = project(of_one), first = project(of_z), window = project(p.window);
   // what the sum over the two nodes has of rings is that of a straight line through their harmonics
   const std::size_t count = directions_ ? directions_->harmonics().count : 0;
-  std::vector<Line> cosine(count), sine(count);
-  for (std::size_t k = 0; k < n && count > 0; ++k) {
-    const HarmonicsAt at(*directions_, foot_ * std::exp(p.y[k]));
-    const double w = p.weight[k] / of.all, by_z = w * (p.y[k] - of.mean) / of.deviation;
-    for (std::size_t m = 0; m < count; ++m) {
-      cosine[m].at_mean += w * at.cosine(m);
-      cosine[m].slope += by_z * at.cosine(m);
-      sine[m].at_mean += w * at.sine(m);
-      sine[m].slope += by_z * at.sine(m);
+  std::vector<HarmonicsAt> at_points;
+  for (std::size_t k = 0; k < n && count > 0; ++k) at_points.emplace_back(*directions_, foot_ * std::exp(p.y[k]));
+  std::vector<Line> cosine, sine;
+  std::vector<double> row(n), sums(n);
+  double rests = 0, rests_of_sums = rest(of, p.y, p.weight, of_one) / (of.all * of.all);
+  const auto take = [&](std::vector<Line>& to, auto harmonic) {
+    double sum = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      row[k] = harmonic(at_points[k]);
+      const double here = p.weight[k] / of.all * row[k];
+      sums[k] = sum + here / 2;
+      sum += here;
     }
+    to.push_back(project(row));
+    rests += rest(of, p.y, p.weight, row);
+    rests_of_sums += rest(of, p.y, p.weight, sums);
+  };
+  for (std::size_t m = 0; m < count; ++m) {
+    take(cosine, [m](const HarmonicsAt& at) { return at.cosine(m); });
+    take(sine, [m](const HarmonicsAt& at) { return at.sine(m); });
   }
+  if (count > 0) nodes_.scatter.push_back(std::sqrt(rests * rests_of_sums / static_cast<double>(p.atoms.size())));
   for (const double at : z) {
     for (std::size_t m = 0; m < count; ++m) {
       nodes_.cosine.push_back(cosine[m].at_mean + cosine[m].slope * at);

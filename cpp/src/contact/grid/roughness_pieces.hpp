@@ -38,6 +38,9 @@ class RoughnessPieces {
     std::vector<double> weight;        // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
     std::vector<double> window;        // of RoughnessWindow
     std::vector<double> cosine, sine;  // with directions: harmonics of the table, a row a node
+    /// With them, of each piece: int f dm of what scatters in harmonics, f from the sums of all that scatters along the
+    /// piece, over f' and the square of the weight; of rings that scatter by chance, its root mean square.
+    std::vector<double> scatter;
     std::vector<double> of_first, of_second;  // int c l dy from the piece's lower end up to the node, of both lines
     /// Fourth differences of a function in ln q, by its values at the node and at two to each side of it, times the
     /// weight of the nodes that they stand for.

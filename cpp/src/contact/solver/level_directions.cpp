@@ -66,21 +66,39 @@ void LevelSolver::check_directions(const Level& level) const {
                          "fewer of them, or wider rings");
 }
 
-double LevelSolver::across(Level& level, const ContactSums& sums, const VectorXd& steering) const {
+/// What harmonics that scatter from ring to ring miss of friction, relative: stress follows G, whose rings scatter too.
+/// From piece to piece it has any sign, and on two levels alike it is.
+double LevelSolver::scatter(const Level& level, const ContactSums& sums) const {
+  if (!(sums.friction > 0)) return 0;
+  const std::vector<double>& of_pieces = level.grid->pieces()->nodes().scatter;
+  const double *const weight = level.grid->weight().data(), *const g = level.theory->node_g().data(),
+                      *const i2 = level.i2.data(), *const i1 = level.mean_i1.data(),
+                      *const loss = level.per_loss.data();
+  double squares = 0;
+  for (std::size_t c = 0; c < of_pieces.size(); ++c) {
+    const std::size_t i = 2 * c, k = i + 1;
+    const double rise = (weight[i] * i2[i] + weight[k] * i2[k]) / std::max(g[k], 1e-300),
+                 off = (loss[i] * i1[i] + loss[k] * i1[k]) * rise * of_pieces[c];
+    squares += off * off;
+  }
+  return std::sqrt(squares) / sums.friction;
+}
+
+double LevelSolver::across(Level& level, const ContactSums& sums) const {
+  level.sideways.resize(0);
   level.cell_across.resize(0);
   if (!rings_of_ || !(sums.friction > 0)) return 0;
   const ContactGrid& grid = *level.grid;
   const bool by_stress = window_ && grid.pieces();
   const auto n = static_cast<Index>(by_stress ? grid.band_size() : grid.size());
-  const Eigen::Map<const Eigen::ArrayXd> lateral(level.across.data(), n), i1(level.i1.data(), n);
   constexpr double least = 1e-300;  // where E'' is lost, no node has a part
-  VectorXd sideways;
   if (by_stress)
-    sideways = grid.weight().array() * level.theory->stress().array() * lateral;
+    level.per_loss = grid.weight().cwiseProduct(level.theory->stress());
   else
-    sideways = level.theory->part().head(n).array() * lateral / (scale_ * i1.max(least));
-  sideways.head(steering.size()).array() *= steering.array();
-  level.cell_across = sums_of_cells(grid, sideways);
+    level.per_loss =
+        level.theory->part().head(n).array() / (scale_ * Eigen::ArrayXd::Map(level.i1.data(), n).max(least));
+  level.sideways = level.per_loss.cwiseProduct(VectorXd::Map(level.across.data(), n));
+  level.cell_across = sums_of_cells(grid, level.sideways);
   const double edges = by_stress ? sums.edges * grid.beyond().end->window * edges_.across : 0;
   return edges + level.cell_across.sum();
 }

@@ -25,6 +25,7 @@ constexpr double for_edges = 0.02;  // of the tolerance
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
 constexpr double of_change = 0.75, of_rest = 2;
 constexpr double of_change_with_rings = 1;   // which scatter
+constexpr double of_scatter = 3;             // of its root mean square
 constexpr double of_change_at_fronts = 1.5;  // beside which levels agree by chance
 /// Two levels may agree by chance, so that of the tolerance something is taken at least: on pieces one point in a
 /// hundred was off by half of it where they did, beside fronts one in 10,000. On panels PartialContact has no fronts,
@@ -91,7 +92,7 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
   if (rings_of_) level.across.assign(n + RoughnessCells::excess, 0.0);
   if (rings_of_ && window_) level.about.resize(n + RoughnessCells::excess);
-  if (rings_of_ && grid.pieces() && kinks())
+  if (rings_of_ && grid.pieces())
     for (auto* const row : {&level.mean_i1, &level.mean_i2}) row->resize(n);
   if (grid.pieces() && analytic_) {
     take_moduli_of_pieces(level, first);
@@ -278,6 +279,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     }
     if (!by_pieces) error = std::fmax(error, of_change_before * std::exchange(change_before, change));
     if (by_pieces) {
+      if (rings_of_ && error <= model_.rtol) error = std::fmax(error, of_scatter * scatter(level, now));
       if (knots && error <= model_.rtol) error = std::fmax(error, beside_knots(level, now));
       error += of_rest * RoughnessPieces::roughest(number) + of_edges;
     }
@@ -299,9 +301,9 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
                          : knots               ? least_at_knots
                                                : least_without_front;
     error_ = std::fmax(own, least * model_.rtol);
-    const VectorXd steering = rings_of_ ? level.theory->steering() : VectorXd();
-    hysteresis_ = {value, value * own, value * error_, value * outside,
-                   mu_factor_ * (steering.size() > 0 ? across(level, now, steering) : lateral)};
+    const VectorXd steering = level.sideways.size() > 0 ? level.theory->steering() : VectorXd();
+    const double steered = level.sideways.head(steering.size()).dot((steering.array() - 1).matrix());
+    hysteresis_ = {value, value * own, value * error_, value * outside, mu_factor_ * (lateral + steered)};
     solved_ = &level;
     return true;
   }

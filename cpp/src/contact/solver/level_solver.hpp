@@ -67,9 +67,10 @@ class LevelSolver {
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
     std::vector<double> across;            // of rings, as i1
-    Eigen::VectorXd cell_across;           // the force across of cells, as the sum of friction
+    Eigen::VectorXd per_loss, sideways;    // with directions: the sum of friction over I1, and the force across
+    Eigen::VectorXd cell_across;           // its sums over cells
     std::vector<double> about;             // I2 with the directions of all roughness, for PartialContact
-    std::vector<double> mean_i1, mean_i2;  // over directions, where the modulus has kinks
+    std::vector<double> mean_i1, mean_i2;  // over directions, on pieces
     std::vector<double> i1_outside;        // of unmeasured frequencies; of a Prony series on one level alone
   };
   using Levels = std::vector<Level>;
@@ -88,10 +89,11 @@ class LevelSolver {
   void check_directions(const Level& level) const;
   [[nodiscard]] double change_between(const Level& coarse, const ContactSums& before, const Level& fine,
                                       const ContactSums& now) const;
+  [[nodiscard]] double scatter(const Level& level, const ContactSums& sums) const;
   [[nodiscard]] double beside_knots(const Level& level, const ContactSums& sums);
   [[nodiscard]] double outside_share(const Level& level, const ContactSums& sums) const;
-  /// The force across of a level, as the sum of friction; with all directions of the roughness unless told how many.
-  [[nodiscard]] double across(Level& level, const ContactSums& sums, const Eigen::VectorXd& steering = {}) const;
+  /// The force across of a level, as the sum of friction, with all directions of the roughness.
+  [[nodiscard]] double across(Level& level, const ContactSums& sums) const;
   [[nodiscard]] AngularIntegrals modulus(double wavenumber, Waves waves = Waves::of_roughness) const;
 
   const Spectrum& spectrum_;
