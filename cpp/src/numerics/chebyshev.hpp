@@ -12,18 +12,22 @@
 
 namespace asperity {
 
-/// The zeros of T_n on [-1, 1].
-template <std::size_t n>
-struct ChebyshevZeros {
+/// n of Chebyshev's points on [-1, 1]: the zeros of T_n, or his extreme points, with both ends among them, as beyond
+/// the last zero a kink would not be seen.
+template <std::size_t n, bool with_ends>
+struct ChebyshevRule {
   std::array<double, n> point;
   std::array<std::array<double, n>, n> transform;  // a value at point k adds transform[m][k] to the coefficient of T_m
 
-  ChebyshevZeros() {
+  ChebyshevRule() {
+    constexpr double intervals = with_ends ? n - 1 : n;
+    const auto half_at_ends = [](std::size_t i) { return with_ends && (i == 0 || i == n - 1) ? 0.5 : 1.0; };
     for (std::size_t k = 0; k < n; ++k) {
-      const double angle = std::numbers::pi * (static_cast<double>(k) + 0.5) / n;
+      const double angle = std::numbers::pi * (static_cast<double>(k) + (with_ends ? 0 : 0.5)) / intervals;
       point[k] = std::cos(angle);
       for (std::size_t m = 0; m < n; ++m)
-        transform[m][k] = (m == 0 ? 1.0 : 2.0) / n * std::cos(static_cast<double>(m) * angle);
+        transform[m][k] = 2 / intervals * (m == 0 ? 0.5 : half_at_ends(m)) * half_at_ends(k) *
+                          std::cos(static_cast<double>(m) * angle);
     }
   }
 
@@ -36,23 +40,10 @@ struct ChebyshevZeros {
     return result;
   }
 };
-
-/// Chebyshev's extreme points, both ends among them: beyond the last of his zeros a kink would not be seen. The
-/// coefficient of T_m is the sum of transform[m][k] f(point[k]).
 template <std::size_t n>
-struct ChebyshevPoints {
-  std::array<double, n> point;
-  std::array<std::array<double, n>, n> transform;
-  ChebyshevPoints() {
-    const auto end = [](std::size_t k) { return k == 0 || k == n - 1 ? 0.5 : 1.0; };
-    for (std::size_t k = 0; k < n; ++k) {
-      const double angle = std::numbers::pi * static_cast<double>(k) / (n - 1);
-      point[k] = std::cos(angle);
-      for (std::size_t m = 0; m < n; ++m)
-        transform[m][k] = 2.0 / (n - 1) * end(m) * end(k) * std::cos(static_cast<double>(m) * angle);
-    }
-  }
-};
+using ChebyshevZeros = ChebyshevRule<n, false>;
+template <std::size_t n>
+using ChebyshevPoints = ChebyshevRule<n, true>;
 
 template <std::size_t n>
 const ChebyshevPoints<n>& chebyshev_points() {
