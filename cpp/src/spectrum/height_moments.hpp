@@ -1,10 +1,10 @@
 // Skewness and kurtosis of heights and the kurtosis of their curvature from one reading.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
 
 #include "asperity/spectrum.hpp"
 
@@ -14,26 +14,21 @@ namespace asperity {
 /// along either axis: short waves that are gathered along one of them alone are faint along the other.
 class HeightMoments {
  public:
-  void add(std::span<const double> heights, double anchor) {
-    double s1 = 0, s2 = 0, s3 = 0, s4 = 0;
-    for (const double height : heights) {
-      const double z = height - anchor, square = z * z;
-      s1 += z;
-      s2 += square;
-      s3 += square * z;
-      s4 += square * square;
-    }
-    first_ += s1;
-    second_ += s2;
-    third_ += s3;
-    fourth_ += s4;
-    count_ += static_cast<double>(heights.size());
-    for (std::size_t i = 4; i < heights.size(); ++i)
-      curvature_[0].add(heights[i - 4] - 2 * heights[i - 2] + heights[i]);
+  using Heights = Eigen::Ref<const Eigen::ArrayXd>;
+
+  void add(const Heights& heights, double anchor) {
+    const auto z = heights - anchor;
+    first_ += z.sum();
+    second_ += z.square().sum();
+    third_ += z.cube().sum();
+    fourth_ += z.square().square().sum();
+    count_ += static_cast<double>(z.size());
+    if (const Eigen::Index n = z.size() - 4; n > 0)
+      curvature_[0].add(heights.head(n) - 2 * heights.segment(2, n) + heights.tail(n));
   }
   /// The same of rows that are two apart.
-  void add_across(std::span<const double> before, std::span<const double> heights, std::span<const double> after) {
-    for (std::size_t i = 0; i < heights.size(); ++i) curvature_[1].add(before[i] - 2 * heights[i] + after[i]);
+  void add_across(const Heights& before, const Heights& heights, const Heights& after) {
+    curvature_[1].add(before - 2 * heights + after);
   }
 
   [[nodiscard]] double mean(double anchor) const { return anchor + first_ / count_; }
@@ -58,11 +53,11 @@ class HeightMoments {
   double first_ = 0, second_ = 0, third_ = 0, fourth_ = 0, count_ = 0;
   struct Curvature {
     double second = 0, fourth = 0, count = 0;
-    void add(double value) {
-      const double square = value * value;
-      second += square;
-      fourth += square * square;
-      count += 1;
+    template <class Values>
+    void add(const Values& values) {
+      second += values.square().sum();
+      fourth += values.square().square().sum();
+      count += static_cast<double>(values.size());
     }
   };
   std::array<Curvature, 2> curvature_;  // along x and along y

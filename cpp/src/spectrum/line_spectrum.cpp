@@ -64,7 +64,7 @@ LineSpectrum line_spectrum(const HeightMap& map, Window window, std::optional<De
     const HeightMap row = row_of(map, y);
     row.read_row(0, heights.data());
     if (detrend) Trend(row, *detrend).subtract(0, heights.data(), heights.data());
-    powers.add({heights.data(), n}, anchor);
+    powers.add(Eigen::ArrayXd::Map(heights.data(), static_cast<Eigen::Index>(n)), anchor);
     if (part != Part::all) kept += keep_side({heights.data(), n}, part);
     for (std::size_t x = 0; x < n; ++x) heights.data()[x] *= w[x];
     transform(heights.data(), modes.data());

@@ -1,7 +1,6 @@
 // The radially averaged spectrum of a map, C(q) = A / ((2 pi)^2 n^2) |sum w h exp(-i q x)|^2 (Eqs 24-27): means over
 // rings of modes with their standard errors.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -288,19 +287,16 @@ std::optional<HeightShape> height_shape(const HeightMap& map, const std::optiona
   const std::size_t step = std::max<std::size_t>(1, map.shape()[0] / enough);
   HeightMoments moments;
   const double anchor = trend ? 0 : first_height(map);
-  std::array<std::vector<double>, 3> rows;
-  for (auto& row : rows) row.resize(map.shape()[1]);
-  const auto read = [&](std::size_t y, std::vector<double>& row) {
+  const auto row_at = [&](std::size_t y) {
+    Eigen::ArrayXd row(static_cast<Eigen::Index>(map.shape()[1]));
     map.read_row(y, row.data());
     if (trend) trend->subtract(y, row.data(), row.data());
+    return row;
   };
   for (std::size_t y = 0; y < map.shape()[0]; y += step) {
-    read(y, rows[0]);
-    moments.add(rows[0], anchor);
-    if (y + 4 >= map.shape()[0]) continue;
-    read(y + 2, rows[1]);
-    read(y + 4, rows[2]);
-    moments.add_across(rows[0], rows[1], rows[2]);
+    const Eigen::ArrayXd row = row_at(y);
+    moments.add(row, anchor);
+    if (y + 4 < map.shape()[0]) moments.add_across(row, row_at(y + 2), row_at(y + 4));
   }
   return moments.shape();
 }

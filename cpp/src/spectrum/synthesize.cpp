@@ -81,7 +81,7 @@ std::vector<double> amplitudes(const Spectrum& spectrum, HeightMap::Shape shape,
 
 HeightMoments moments(const std::vector<double>& z) {
   HeightMoments result;
-  result.add(z, 0);
+  result.add(Eigen::ArrayXd::Map(z.data(), static_cast<Eigen::Index>(z.size())), 0);
   return result;
 }
 
