@@ -1,7 +1,6 @@
 // Builds a friction map: checks of the request, refinement, and random points on which the finished file is checked.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <thread>
 
 #include "asperity/build_friction_map.hpp"
@@ -12,7 +11,6 @@
 #include "contact/correction.hpp"
 #include "friction_map/format.hpp"
 #include "numerics/arguments.hpp"
-#include "numerics/interpolation.hpp"
 #include "numerics/parallel_for.hpp"
 #include "numerics/random.hpp"
 
@@ -192,21 +190,16 @@ unsigned threads_of(const MapRequest& request) {
   return request.threads > 0 ? request.threads : std::max(1u, std::thread::hardware_concurrency());
 }
 
-/// What goes with the heat of a map: ln a_T at its heights, and the rest from that, telling how far it is.
-struct WithHeat {
-  std::function<std::vector<double>(const std::vector<double>&)> shift;
-  std::function<MapHeatTables(const std::vector<double>&, const std::function<void(double)>&)> tables;
-};
-
-/// Refines a map, adds to it what goes with its heat, and checks the finished file.
+/// Refines a map, adds to it what goes with its heat, made by `heat` that tells how far it is, and checks the finished
+/// file.
 std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhesion>& adhesion,
-                                const MapRequest& request, const WithHeat* with_heat = nullptr) {
+                                const MapRequest& request,
+                                const std::function<MapHeatTables(const std::function<void(double)>&)>& heat = {}) {
   const unsigned threads = threads_of(request);
-  Stages stages(request.progress,
-                1 + (with_heat ? 1 : 0) + (frame.directional() ? 1 : 0) + (request.checked > 0 ? 1 : 0));
+  Stages stages(request.progress, 1 + (heat ? 1 : 0) + (frame.directional() ? 1 : 0) + (request.checked > 0 ? 1 : 0));
   const RefinedMap refined = refine(frame, request.rtol, threads, stages.next());
   MapHeatTables beside;
-  if (with_heat) beside = with_heat->tables(with_heat->shift(refined.heights), stages.next());
+  if (heat) beside = heat(stages.next());
   MapCertificate certificate{.max_error = refined.max_error};
   if (frame.directional()) {
     const MapFrame across = frame.of_across();
@@ -216,38 +209,12 @@ std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhes
     silent.text = {};
     MapHeatTables of_forces;
     of_forces.sliding = beside.sliding;
-    if (with_heat) of_forces.shift = with_heat->shift(forces.heights);
     beside.across = map_file(across, forces, {}, silent, {.max_error = forces.max_error}, of_forces);
   }
   const auto file = [&] { return map_file(frame, refined, adhesion, request, certificate, beside); };
   if (request.checked == 0) return file();
   check(frame, file(), request, threads, stages.next(), certificate);
   return file();
-}
-
-/// ln a_T from one temperature to others, with its slope over T.
-std::vector<double> shifts(const TemperatureShift& shift, const std::vector<double>& temperatures, double from) {
-  const double reference = shift_at(shift, from).log10_a_T;
-  std::vector<double> result;
-  for (const double one : temperatures) {
-    const ShiftValue found = shift_at(shift, one);
-    result.insert(result.end(), {std::numbers::ln10 * (found.log10_a_T - reference), std::numbers::ln10 * found.slope});
-  }
-  return result;
-}
-
-/// The velocities at which the rubber is at one temperature as it is at all of these at those of the box.
-std::array<double, 2> shifted_box(std::array<double, 2> velocity, const std::vector<double>& shift, double step) {
-  double lowest = shift[0], highest = shift[0];
-  for (std::size_t i = 0; i + 2 < shift.size(); i += 2)
-    for (int k = 0; k <= curve_steps; ++k) {
-      const double t = static_cast<double>(k) / curve_steps;
-      const double found = hermite(shift[i], shift[i + 1], shift[i + 2], shift[i + 3], step, t).value;
-      // not std::fmin, of whose vectors GCC 12 for aarch64 makes an internal error
-      lowest = std::min(lowest, found);
-      highest = std::max(highest, found);
-    }
-  return {velocity[0] * std::exp(lowest), velocity[1] * std::exp(highest)};
 }
 
 /// `turns`: in all directions that the spectrum knows.
@@ -301,29 +268,16 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
 
   const MapHeat heat{&shift, &heating, adhesion, temperature, temperature[0]};
   const MapFrame frame(spectrum, rubber, model, request, heat);
-  const auto shift_of = [&](const std::vector<double>& heights) {
-    if (!frame.slant()) return shifts(shift, heights, temperature[0]);
-    const auto [a, b] = frame.slant()->coefficients();
-    return std::vector{a, b};
-  };
-  const auto tables = [&](const std::vector<double>& log_a_T, const std::function<void(double)>& progress) {
-    MapHeatTables result;
-    result.shift = log_a_T;
+  return made(frame, adhesion, whole, [&](const std::function<void(double)>& progress) {
     MapRequest cold = request;
-    if (frame.slant()) {
-      for (std::size_t i = 0; i < 2; ++i) cold.velocity[i] *= std::exp(frame.slant()->log_a_T()[i]);
-    } else {
-      const double steps = static_cast<double>(log_a_T.size()) / 2 - 1;
-      cold.velocity = shifted_box(request.velocity, log_a_T, (temperature[1] - temperature[0]) / std::fmax(1, steps));
-    }
+    for (std::size_t i = 0; i < 2; ++i) cold.velocity[i] *= std::exp(frame.log_a_T_sides()[i]);
     cold.progress = {};  // a second or two
     const Rubber at_lowest = shifted(rubber, shift, temperature[0]);
+    MapHeatTables result;
     result.cold = without_heat(spectrum, at_lowest, model, adhesion, cold, false);
     result.sliding = sliding_table(spectrum, rubber, model, heat, request, threads_of(request), progress);
     return result;
-  };
-  const WithHeat with_heat{shift_of, tables};
-  return made(frame, adhesion, whole, &with_heat);
+  });
 }
 
 }  // namespace asperity

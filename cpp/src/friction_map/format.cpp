@@ -149,8 +149,8 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
        {flags, std::size_t{tree.bands()}, frame.log_modulus_nodes().size() / 2, refined.heights.size(),
         warm.sliding.columns, warm.sliding.rows, index.grids.size(), index.entries.size(), cells, request.text.size()})
     out.u32(n);
-  const std::vector<double> shift = refined.heights.size() > 1 ? warm.shift : std::vector<double>{};
-  for (const std::vector<double>& table : {shift, warm.sliding.values, tree.cuts(), frame.log_modulus_nodes()})
+  for (const std::vector<double>& table :
+       {frame.log_a_T(refined.heights), warm.sliding.values, tree.cuts(), frame.log_modulus_nodes()})
     for (const double x : table) out.f64(x);
   for (const Index::Grid& grid : index.grids) {
     const auto [wide, high] = tree.size({grid.x, grid.z, grid.wide, grid.high});

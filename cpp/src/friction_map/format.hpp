@@ -113,8 +113,6 @@ struct MapCertificate {
 /// What the file of a map with heat, or of one that knows directions, has beside its cells.
 struct MapHeatTables {
   std::vector<unsigned char> cold, across;  // files of the map without heat, and of forces across
-  std::vector<double>
-      shift;  // ln a_T of the cold one and its slope, at each of several nodes of T0; or a and b of Slant
   SlidingTable sliding;
 };
 

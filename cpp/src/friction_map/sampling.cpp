@@ -191,17 +191,41 @@ std::vector<double> MapFrame::height_cuts() const {
   return cuts;
 }
 
+ValueAndSlope MapFrame::log_a_T_at(double temperature) const {
+  const ShiftValue found = shift_at(*heat_->shift, temperature);
+  const double reference = shift_at(*heat_->shift, heat_->range[0]).log10_a_T;
+  return {std::numbers::ln10 * (found.log10_a_T - reference), std::numbers::ln10 * found.slope};
+}
+
+std::vector<double> MapFrame::log_a_T(std::span<const double> nodes) const {
+  if (!heat_ || nodes.size() < 2) return {};
+  if (slant_) return {slant_->coefficients()[0], slant_->coefficients()[1]};
+  std::vector<double> result;
+  for (const double node : nodes) {
+    const auto [value, slope] = log_a_T_at(node);
+    result.insert(result.end(), {value, slope});
+  }
+  return result;
+}
+
+/// Laws rise or fall throughout, and shift factors between their rows.
+std::array<double, 2> MapFrame::log_a_T_sides() const {
+  if (slant_) return slant_->log_a_T();
+  std::array<double, 2> sides{0, 0};
+  for (const double cut : height_cuts()) {
+    const double here = log_a_T_at(cut).value;
+    sides = {std::min(sides[0], here), std::max(sides[1], here)};
+  }
+  return sides;
+}
+
 double MapFrame::error_of_shift(std::span<const double> nodes) const {
   if (slant_ || turns_) return 0;
-  const auto at = [&](double temperature) {
-    const ShiftValue found = shift_at(*heat_->shift, temperature);
-    return ValueAndSlope{std::numbers::ln10 * found.log10_a_T, std::numbers::ln10 * found.slope};
-  };
   double largest = 0;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const ValueAndSlope a = at(nodes[i]), b = at(nodes[i + 1]);
+    const ValueAndSlope a = log_a_T_at(nodes[i]), b = log_a_T_at(nodes[i + 1]);
     const double cubic = hermite(a.value, a.slope, b.value, b.slope, nodes[i + 1] - nodes[i], 0.5).value;
-    largest = std::fmax(largest, std::fabs(cubic - at((nodes[i] + nodes[i + 1]) / 2).value));
+    largest = std::fmax(largest, std::fabs(cubic - log_a_T_at((nodes[i] + nodes[i + 1]) / 2).value));
   }
   return largest;
 }

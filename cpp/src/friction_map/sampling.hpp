@@ -168,6 +168,10 @@ class MapFrame {
   [[nodiscard]] const std::optional<Slant>& slant() const { return slant_; }
   /// Those between which a_T is smooth: with the ends the rows of a table of shift factors.
   [[nodiscard]] std::vector<double> height_cuts() const;
+  /// ln a_T of the map without heat and its slope over T0, at each of several nodes of it; or a and b of the slant.
+  [[nodiscard]] std::vector<double> log_a_T(std::span<const double> nodes) const;
+  /// Between which it is.
+  [[nodiscard]] std::array<double, 2> log_a_T_sides() const;
   /// By how much ln a_T is off in the middles between nodes, over which cubics with its slopes go; exact along slanted
   /// lines.
   [[nodiscard]] double error_of_shift(std::span<const double> nodes) const;
@@ -217,6 +221,7 @@ class MapFrame {
   [[nodiscard]] std::vector<MapSample> sample_unshifted(std::span<const MapPlace> places, unsigned threads) const;
 
  private:
+  [[nodiscard]] ValueAndSlope log_a_T_at(double temperature) const;
   [[nodiscard]] std::vector<MapSample> sample(const ContactModel& model, const std::vector<double>& pressure,
                                               std::span<const MapPlace> places, unsigned threads) const;
   [[nodiscard]] std::vector<double> velocities_of(std::span<const MapPlace> places) const;

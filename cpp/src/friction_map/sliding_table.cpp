@@ -212,12 +212,7 @@ class Grid {
     for (std::size_t j = 0; j < rows_; ++j) {
       for (std::size_t i = 0; i < columns_; ++i) y[i] = nodes_[j * columns_ + i].log_length;
       const Steffen through(x, y);
-      for (std::size_t i = 0; i < columns_; ++i) {
-        const bool last = i + 1 == columns_;
-        const std::array<double, 4> c = through.cubic(last ? i - 1 : i);
-        const double h = last ? x[i] - x[i - 1] : 0;
-        table.values.insert(table.values.end(), {y[i], c[1] + h * (2 * c[2] + h * 3 * c[3])});
-      }
+      for (std::size_t i = 0; i < columns_; ++i) table.values.insert(table.values.end(), {y[i], through.slope(i)});
     }
     return table;
   }
