@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -32,21 +31,21 @@ constexpr double least_beta = 0.15, first_beta = 0.5, most_beta = 1000;
 
 /// Points of a grid, row by row.
 struct PointSet {
-  std::vector<std::uint32_t> column;
+  std::vector<Eigen::Index> at;
   std::vector<std::size_t> first;  // of each row, one more than rows
 
-  [[nodiscard]] std::size_t size() const { return column.size(); }
   [[nodiscard]] bool empty(std::size_t y) const { return first[y] == first[y + 1]; }
 };
 
-template <class Inside>
-PointSet points(Grid shape, Inside inside) {
+/// Those with pressure, and those whose gap is below `depth`.
+PointSet points(Grid shape, const Eigen::ArrayXd& pressure, const Eigen::ArrayXd& gap, double depth) {
   PointSet set;
   set.first.push_back(0);
-  for (std::size_t y = 0; y < shape[0]; ++y) {
-    for (std::size_t x = 0; x < shape[1]; ++x)
-      if (inside(y * shape[1] + x)) set.column.push_back(static_cast<std::uint32_t>(x));
-    set.first.push_back(set.column.size());
+  const auto nx = static_cast<Eigen::Index>(shape[1]);
+  for (Eigen::Index first = 0; first < pressure.size(); first += nx) {
+    for (Eigen::Index at = first; at < first + nx; ++at)
+      if (pressure[at] > 0 || gap[at] < depth) set.at.push_back(at);
+    set.first.push_back(set.at.size());
   }
   return set;
 }
@@ -109,7 +108,7 @@ class ContactSolver {
     if (state_.size() == 0) state_.setConstant(static_cast<Eigen::Index>(size_), problem_.load);
     normalise(state_);
     evaluate(state_, gap_);
-    set_ = points(problem_.shape, [&](std::size_t i) { return state_[static_cast<Eigen::Index>(i)] > 0; });
+    set_ = points(problem_.shape, state_, gap_, -std::numeric_limits<double>::infinity());
     double beta = first_beta, merit = std::numeric_limits<double>::infinity();
     double best = merit;
     int best_step = 0;
@@ -128,7 +127,8 @@ class ContactSolver {
         merit = residual;
         state_.swap(next_);
         gap_.swap(next_gap_);
-        set_ = next_set(level - deep * error);
+        // where all points of negative gap join at once, the next step throws most of them out again
+        set_ = points(problem_.shape, state_, gap_, level - deep * error);
         result.error = error;
         if (error < 0.5 * best) {
           best = error;
@@ -179,62 +179,40 @@ class ContactSolver {
 
   /// Onto the set, from the set, without the mean.
   void apply(const Factor<float>& factor, const float* from, float* to) {
-    const std::size_t nx = problem_.shape[1];
+    const auto nx = static_cast<Eigen::Index>(problem_.shape[1]);
+    const auto each_point = [&](std::size_t y, auto visit) {
+      for (std::size_t i = set_.first[y]; i < set_.first[y + 1]; ++i)
+        visit(i, set_.at[i] - static_cast<Eigen::Index>(y) * nx);
+    };
     coarse_(
         factor,
         [&](std::size_t y, float* row) {
           if (set_.empty(y)) return false;
           std::fill_n(row, nx, 0.0F);
-          for (std::size_t i = set_.first[y]; i < set_.first[y + 1]; ++i) row[set_.column[i]] = from[i];
+          each_point(y, [&](std::size_t i, Eigen::Index x) { row[x] = from[i]; });
           return true;
         },
         [&](std::size_t y) { return !set_.empty(y); },
         [&](std::size_t y, const float* row) {
-          for (std::size_t i = set_.first[y]; i < set_.first[y + 1]; ++i) to[i] = row[set_.column[i]];
+          each_point(y, [&](std::size_t i, Eigen::Index x) { to[i] = row[x]; });
         });
-    auto result = Eigen::ArrayXf::Map(to, static_cast<Eigen::Index>(set_.size()));
+    auto result = Eigen::ArrayXf::Map(to, static_cast<Eigen::Index>(set_.at.size()));
     result -= static_cast<float>(result.cast<double>().mean());
   }
 
-  /// From state and gap to the pressure `next_`, and which points of the set fell below 0 and leave it. Whether GMRES
-  /// left no more of the residual than `enough`.
+  /// From state and gap to the pressure `next_`, without the points of the set where it would fall below 0. Whether
+  /// GMRES left no more of the residual than `enough`.
   bool newton_step() {
-    Eigen::VectorXd gap(static_cast<Eigen::Index>(set_.size()));
-    for_each_point([&](Eigen::Index i, Eigen::Index at) { gap[i] = gap_[at]; });
-    const Eigen::VectorXf right = (gap.mean() - gap.array()).cast<float>();
+    const Eigen::ArrayXd gap = gap_(set_.at);
+    const Eigen::VectorXf right = (gap.mean() - gap).cast<float>();
     double residual = 0;
     const Eigen::VectorXf change = gmres(
         right, enough, most_vectors, [&](const float* from, float* to) { apply(compliance_on_set_, from, to); },
         [&](const float* from, float* to) { apply(stiffness_on_set_, from, to); }, residual);
     next_.setZero(state_.size());
-    leaves_.assign(set_.size(), false);
-    for_each_point([&](Eigen::Index i, Eigen::Index at) {
-      const double p = state_[at] + static_cast<double>(change[i]);
-      next_[at] = std::max(p, 0.0);
-      leaves_[static_cast<std::size_t>(i)] = !(p > 0);
-    });
+    next_(set_.at) = (state_(set_.at) + change.cast<double>().array()).max(0);
     normalise(next_);
     return residual <= enough;
-  }
-
-  template <class Visit>
-  void for_each_point(Visit visit) const {
-    for (std::size_t y = 0; y < problem_.shape[0]; ++y)
-      for (std::size_t i = set_.first[y]; i < set_.first[y + 1]; ++i)
-        visit(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(y * problem_.shape[1] + set_.column[i]));
-  }
-
-  /// Points of the set whose pressure stayed positive, and others whose gap is below `depth`. Where all points of
-  /// negative gap join at once, the next step throws most of them out again.
-  [[nodiscard]] PointSet next_set(double depth) const {
-    std::size_t i = 0, y = 0;
-    const std::size_t nx = problem_.shape[1];
-    return points(problem_.shape, [&](std::size_t at) {
-      y = at / nx;
-      while (i < set_.first[y]) ++i;
-      if (i < set_.first[y + 1] && set_.column[i] == at - y * nx) return !leaves_[i++];
-      return gap_[static_cast<Eigen::Index>(at)] < depth;
-    });
   }
 
   const ContactProblem& problem_;
@@ -247,7 +225,6 @@ class ContactSolver {
   double weight_ = 0, beta_ = -1;
   PointSet set_;
   Eigen::ArrayXd state_, gap_, next_, next_gap_;
-  std::vector<bool> leaves_;
 };
 
 }  // namespace
