@@ -20,7 +20,7 @@ struct ChebyshevRule {
   std::array<std::array<double, n>, n> transform;  // a value at point k adds transform[m][k] to the coefficient of T_m
 
   ChebyshevRule() {
-    constexpr double intervals = with_ends ? n - 1 : n;
+    const double intervals = with_ends ? n - 1 : n;
     const auto half_at_ends = [](std::size_t i) { return with_ends && (i == 0 || i == n - 1) ? 0.5 : 1.0; };
     for (std::size_t k = 0; k < n; ++k) {
       const double angle = std::numbers::pi * (static_cast<double>(k) + (with_ends ? 0 : 0.5)) / intervals;
