@@ -42,7 +42,6 @@ GradientChain::GradientChain(const GradientScene& scene, const ContactGrid& grid
   if (std::ranges::any_of(numbers, [](const std::string& name) { return name.ends_with("gamma"); }))
     gamma_.emplace(scene.model, scene.spectrum, scene.surface, grid);
   if (scene.model.strain_factors) strain_.emplace(*scene.model.strain_factors, scene.surface, grid);
-  integrals_.rows = rings_ ? static_cast<std::size_t>(rings_->columns()) : 1;
   integrals_.parted = strain_.has_value();
 }
 
@@ -114,14 +113,20 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   const std::size_t n = grid_.size(), band = grid_.band_size();
   const ContactGrid::Beyond& beyond = grid_.beyond();
   const std::size_t edges_end = beyond.end ? beyond.first + beyond.count + 1 : band;
-  integrals_.clear();
+  static constexpr double alone = 1;
+  integrals_.waves.clear();
+  integrals_.mean = {&alone, 1};
+  if (rings_) rings_->clear();
   PointGradient result;
   VectorXd by_f = VectorXd::Zero(static_cast<Index>(strain_ ? n : 0)), by_g = by_f;
   double by_end = mu.end, homogeneous = 0, beside = 0;
-  if (rings_) by_rings_.setZero(static_cast<Index>(n), rings_->columns());
-  constexpr double alone = 1;
+  VectorXd linear(mu.of.i2.size()), storage = linear, loss = linear;
   const auto add = [&](const FeltModulus& felt, const VectorXd& of_i1, const VectorXd& of_i2, bool moves) {
     const VectorXd log_w = column(felt.frequency, n).array().log();
+    if (rings_) integrals_.mean = rings_->take(felt.blocks);
+    linear.setZero();
+    storage.setZero();
+    loss.setZero();
     for (std::size_t j = 0; j < n; ++j) {
       const auto at = static_cast<Index>(j);
       const double i1 = felt.columns.i1[j], i2 = felt.columns.i2[j], by_i1 = i1 > 0 ? of_i1[at] : 0, by_i2 = of_i2[at];
@@ -137,16 +142,18 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
       }
       homogeneous += by_i1 + 2 * by_i2;
       const auto [f, g] = strain_ ? strain_->factors()[j] : ModulusFactors{};
-      const double linear = g * per_i1, storage = f * f * per_i2, loss = g * g * per_i2;
+      linear[at] = g * per_i1;
+      storage[at] = f * f * per_i2;
+      loss[at] = g * g * per_i2;
       if (strain_) {
-        const double by_loss = 2 * loss * felt.loss_part[j];
+        const double by_loss = 2 * loss[at] * felt.loss_part[j];
         by_f[at] += 2 * by_i2 - by_loss;
         by_g[at] += by_loss + by_i1;
       }
-      if (rings_) rings_->add(felt, j, linear, storage, loss, by_rings_);
-      integrals_.add(felt.frequency[j], log_w[at], linear, storage, loss, rings_ ? rings_->of_i1(j) : &alone,
-                     rings_ ? rings_->of_i2(j) : &alone);
+      integrals_.waves.push_back({felt.frequency[j], log_w[at], linear[at], storage[at], loss[at],
+                                  rings_ ? rings_->of(j) : std::span<const double>{}});
     }
+    if (rings_) rings_->add(felt, linear, storage, loss);
   };
   add(mu.felt, mu.of.ratio, mu.of.i2 - mu.of.ratio, true);
   if (mu.of.cold_i2.size() != 0) add(mu.cold, VectorXd::Zero(mu.of.cold_i2.size()), mu.of.cold_i2, true);
@@ -155,12 +162,13 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   VectorXd by_strain = VectorXd::Zero(static_cast<Index>(band));
   if (strain_) strain = (*strain_)(by_f, by_g, by_strain);
   VectorXd by_node = by_roughness(mu, by_end + strain.end, shift);
-  if (rings_) rings_->spread(mu.of.edges, by_rings_, by_node);
+  if (rings_) rings_->spread(mu.of.edges, by_node);
   const double at_q1 = law_.empty() ? 0 : at_end(by_node) + strain.beyond * at_end(grid_.weight());
   by_node.head(by_strain.size()) += by_strain;
-  result.spectrum = rows_(by_node, by_rings_);
+  static const Eigen::MatrixXd none;
+  result.spectrum = rows_(by_node, rings_ ? rings_->slopes() : none);
   add_law(mu, shift, by_node, at_q1, result);
-  if (rings_) result.arguments.push_back(one(rings_->turned(by_rings_)));
+  if (rings_) result.arguments.push_back(one(rings_->turned()));
   scene_.modulus(integrals_, result.storage, result.loss);
   // I1 is linear in E and I2 a square
   result.missed = std::fmax(std::fabs(result.storage.sum() + result.loss.sum() - homogeneous), std::fabs(beside));

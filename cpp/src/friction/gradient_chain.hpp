@@ -31,11 +31,14 @@ struct GradientScene {
   std::span<const Segment> surface;
   const Excitation& waves;
   std::size_t harmonics;
+  std::vector<double> shares;       // as Directions has them
   const std::vector<double>& rows;  // of C [1/m]
   const ModulusGradient& modulus;
   const std::optional<SeriesSlopes>& terms;  // of a series
   std::vector<double> of_top = {};  // d ln of a law's C at the roll-off or at k = q0 over its numbers, with directions
 };
+
+inline constexpr double of_harmonics = 1e-5;  // what those may have that are left out
 
 /// Slopes of ln p_T over ln of the pressure and of what it has of the roughness; over the modulus it has that over the
 /// pressure, its sign turned.
@@ -74,10 +77,6 @@ class GradientChain {
  public:
   GradientChain(const GradientScene& scene, const ContactGrid& grid);
   [[nodiscard]] PointGradient operator()(const MuSlopes& mu, const ShiftGradient& shift);
-  /// The factors of the nodes, none without strain.
-  [[nodiscard]] std::vector<ModulusFactors> factors() const {
-    return strain_ ? strain_->factors() : std::vector<ModulusFactors>{};
-  }
 
  private:
   void take_law();
@@ -99,7 +98,6 @@ class GradientChain {
   std::optional<RingGradient> rings_;
   std::vector<Eigen::VectorXd> law_;        // d ln C of the nodes over each number of a law
   std::vector<Eigen::MatrixXd> law_rings_;  // and, with directions, of their harmonics
-  Eigen::MatrixXd by_rings_;
   IntegralSlopes integrals_;
   Eigen::VectorXd nayak_;        // the same of ln alpha over ln C of the nodes
   std::vector<SInside> inside_;  // at an alpha that is less, and more

@@ -95,12 +95,12 @@ GradientLevel::GradientLevel(const GradientScene& scene, std::size_t number)
       grid_(scene.surface, grid_options(scene, number, window_, cut_)),
       theory_(contact_theory(scene.model, scene.spectrum, scene.surface, grid_, scene.waves.directions())),
       chain_(scene, grid_),
-      angular_(scene.rubber, chain_.factors(), scene.waves.rings(grid_)),
+      angular_(scene.rubber, scene.model, scene.surface, scene.waves, grid_),
       known_(known_range(scene.rubber)) {
-  angular_.take_harmonics(scene.harmonics);
+  if (scene.harmonics > 0) angular_.take_harmonics(scene.shares, of_harmonics, scene.harmonics);
   if (std::holds_alternative<MasterCurve>(scene.rubber))
     panels_.emplace(grid_);
-  else if (grid_.pieces() && grid_.size() == grid_.band_size() && scene.harmonics == 0 && chain_.factors().empty())
+  else if (grid_.pieces() && grid_.size() == grid_.band_size() && scene.harmonics == 0 && !scene.model.strain_factors)
     cells_ = &grid_.pieces()->cells();
 }
 

@@ -112,7 +112,7 @@ void GradientChain::take_directional_law() {
                       std::log(grid_.wavenumber()[stretch.first + j] / grid_.wavenumber()[stretch.first + i]);
           whole[static_cast<Index>(j)] += part;
           of_c[node] += part * log_c[k];
-          of_rings.row(node) += part * (changed + (rings - rings_->values().row(node)) * log_c[k]);
+          of_rings.row(node) += part * (changed + (rings - rings_->values(node)) * log_c[k]);
         }
       }
       for (std::size_t j = 0; j < stretch.count; ++j) {
@@ -145,14 +145,14 @@ void GradientChain::add_law(const MuSlopes& mu, const ShiftGradient& shift, cons
   std::vector<double> slopes;
   for (const VectorXd& of_nodes : law_) slopes.push_back(by_node.head(of_nodes.size()).dot(of_nodes));
   for (std::size_t k = 0; k < law_rings_.size(); ++k)
-    if (law_rings_[k].size() > 0) slopes[k] += by_rings_.cwiseProduct(law_rings_[k]).sum();
+    if (law_rings_[k].size() > 0) slopes[k] += rings_->slopes().cwiseProduct(law_rings_[k]).sum();
   slopes[3] += at_q1;
   slopes[2] = slopes[0] - by_shift * shift.rms_height - slopes[3] + result.by_frequency + mu.by_lengths;
   const bool rolled = scene_.law->rolloff.has_value();
   if (rolled) slopes[2] -= slopes[4];
   if (shift.along != 0) slopes[2] -= shift.along * by_frequency_of(mu, shift);
   slopes[rolled ? 4 : 2] += by_shift * shift.wavenumber;
-  if (rings_) slopes.push_back(-rings_->turned(by_rings_));
+  if (rings_) slopes.push_back(-rings_->turned());
   for (const double slope : slopes) result.arguments.push_back(VectorXd::Constant(1, slope));
 }
 

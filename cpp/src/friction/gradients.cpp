@@ -31,8 +31,6 @@ constexpr double rows_per_unit = 2;  // of ln q, of a law
 /// less than 1e-4 of mu (tests/stability/random_gradients.py).
 constexpr double of_change = 2, least_error = 2e-4;
 
-constexpr double of_harmonics = 1e-5;  // what those may have that are left out
-
 /// A spectrum as it is asked for: a law, or the rows of a table.
 std::vector<double> rows_of(const Spectrum& spectrum) {
   if (const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum)) return table->wavenumber();
@@ -100,21 +98,27 @@ class Table {
         lowest_(slowest * band(given)[0]),
         highest_(fastest * band(given)[1] * (has_own_rule(model.correction) ? partial_contact::tail_end : 1)),
         waves_(rubber, model, surface_.get(), harmonics_of(solved_.get())),
-        harmonics_(harmonics()),
+        harmonics_(waves_.directions() ? std::max<std::size_t>(waves_.needed(felt(), of_harmonics).count, 1) : 0),
         modulus_(rubber, lowest_, highest_, harmonics_),
-        scene_{solved_.get(), std::get_if<SelfAffineSpectrum>(&given),
-               rubber,        model,
-               adhesion,      surface_.get(),
-               waves_,        harmonics_,
-               rows_,         modulus_,
-               terms_},
+        scene_{.spectrum = solved_.get(),
+               .law = std::get_if<SelfAffineSpectrum>(&given),
+               .rubber = rubber,
+               .model = model,
+               .adhesion = adhesion,
+               .surface = surface_.get(),
+               .waves = waves_,
+               .harmonics = harmonics_,
+               .shares = waves_.shares(felt()),
+               .rows = rows_,
+               .modulus = modulus_,
+               .terms = terms_},
         of_rows_(weights_of(rows_)),
         of_modulus_(weights_of(modulus_.angular_frequency())) {
     if (scene_.law) add(law_arguments(*scene_.law));
     if (scene_.law && harmonics_ > 0) scene_.of_top = slopes_of_top(*scene_.law);
     if (harmonics_ > 0) add({"direction"});
     if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
-      terms_.emplace(*series, lowest_, highest_, harmonics_);
+      terms_.emplace(*series, lowest_, highest_);
       add({"equilibrium_modulus"});
       add({"moduli", "relaxation_times"}, series->moduli().size());
     }
@@ -159,11 +163,11 @@ class Table {
   [[nodiscard]] Gradients take() { return std::move(g_); }
 
  private:
-  [[nodiscard]] std::size_t harmonics() const {
-    if (!waves_.directions()) return 0;
+  /// Frequencies that the rubber knows.
+  [[nodiscard]] FrequencyRange felt() const {
     const std::optional<FrequencyRange> known = known_range(waves_.rubber());
     const auto held = [&](double w) { return known ? std::clamp(w, known->lowest, known->highest) : w; };
-    return std::max<std::size_t>(waves_.needed({held(lowest_), held(highest_)}, of_harmonics).count, 1);
+    return {held(lowest_), held(highest_)};
   }
 
   AsSolved solved_;

@@ -16,8 +16,53 @@ void AngularColumns::resize(std::size_t n) {
   for (auto* column : {&i1, &i2, &slope1, &slope2}) column->resize(n);
 }
 
-AngularSlopes::AngularSlopes(const Rubber& rubber, std::vector<ModulusFactors> factors, Rings rings)
-    : rubber_(unlimited(rubber).value_or(rubber)), factors_(std::move(factors)), rings_(std::move(rings)) {}
+AngularSlopes::AngularSlopes(const Rubber& rubber, const ContactModel& model, std::span<const Segment> surface,
+                             const Excitation& waves, const ContactGrid& grid)
+    : rubber_(unlimited(rubber).value_or(rubber)),
+      factors_(model.strain_factors ? Softening(*model.strain_factors, surface).at_nodes(grid)
+                                    : std::vector<ModulusFactors>{}),
+      rings_(waves.rings(grid)),
+      band_(grid.band_size()),
+      about_(grid.beyond().about) {}
+
+/// Nodes beside each other that ask for about as many are one block.
+void AngularSlopes::take_harmonics(const std::vector<double>& shares, double least, std::size_t most) {
+  constexpr std::size_t step = 16, longest = 128, apart = 4;  // nodes, and harmonics
+  const auto needed = [&](std::size_t first, std::size_t size) {
+    double rest = 0;
+    std::size_t m = rings_.count;
+    for (; m > 0; --m) {
+      double largest = 0;
+      for (std::size_t i = (m - 1) * rings_.waves + first, end = i + size; i < end; ++i)
+        largest = std::max(largest, std::fabs(rings_.along[i]) + std::fabs(rings_.across[i]));
+      rest += largest * shares[m - 1];
+      if (rest > least) break;
+    }
+    return std::min(m, most);
+  };
+  blocks_.clear();
+  in_rows_ = 0;
+  const std::size_t again = about_ > 0 ? band_ : 0, of_all = again > 0 ? needed(about_, 1) : 0;
+  const auto add = [&](std::size_t from, std::size_t end) {
+    for (std::size_t first = from, next = 0; first < end; first = next) {
+      std::size_t fewest = SIZE_MAX, own = 0;
+      for (next = first; next < end && next < first + longest; next += step) {
+        const std::size_t here = needed(next, std::min(step, end - next));
+        if (next > first && std::max(own, here) > std::min(fewest, here) + apart) break;
+        own = std::max(own, here);
+        fewest = std::min(fewest, here);
+      }
+      next = std::min(next, end);
+      const std::size_t size = next - first, rows = 1 + (first < again ? std::max(own, of_all) : own);
+      blocks_.push_back({first, size, own, in_rows_, rows});
+      if (first < again) blocks_.push_back({about_ + first, size, of_all, in_rows_, 0});
+      in_rows_ += size * rows;
+    }
+  };
+  add(0, band_);
+  add(band_, again > 0 ? about_ : rings_.waves);
+  if (again > 0) add(about_ + again, rings_.waves);
+}
 
 void AngularSlopes::operator()(FeltModulus& felt) {
   constexpr double apart = 0.02;  // of ln w
@@ -35,20 +80,18 @@ void AngularSlopes::operator()(FeltModulus& felt, const PanelSlopes* panels, dou
   take_rows(felt);
 }
 
-void AngularSlopes::take_rows(FeltModulus& felt) const {
-  const auto n = std::ssize(felt.frequency), parted = factors_.empty() ? 0 : n;
-  felt.loss_part.assign(of_loss_.begin(), of_loss_.begin() + parted);
-  if (harmonics_ == 0) return;
-  felt.loss_rows = whole_;
-  felt.loss_rows.insert(felt.loss_rows.end(), loss_.begin(), loss_.end());
-  felt.square_rows = square_;
-  felt.loss_part_rows.assign(of_loss_.begin() + parted, of_loss_.end());
+void AngularSlopes::take_rows(FeltModulus& felt) {
+  felt.loss_part = of_loss_;
+  felt.blocks = blocks_;
+  felt.loss_rows.swap(loss_);
+  felt.square_rows.swap(square_);
+  felt.loss_part_rows.swap(part_);
 }
 
 void AngularSlopes::solve(std::span<const double> w, bool sloped, AngularColumns& result, double step) {
   const std::size_t n = w.size();
   if (!factors_.empty()) {
-    of_loss_.resize((harmonics_ + 1) * n);
+    of_loss_.resize(n);
     loss_slope_.resize(n);
   }
   if (const auto* const curve = std::get_if<MasterCurve>(&rubber_))
@@ -56,48 +99,63 @@ void AngularSlopes::solve(std::span<const double> w, bool sloped, AngularColumns
   else
     of_series(w, sloped, result);
   result.across.assign(rings_.count > 0 ? n : 0, 0.0);
-  if (harmonics_ > 0) add_rings(w, sloped, result);
+  if (!blocks_.empty()) add_rings(w, sloped, result);
   if (factors_.empty()) return;
-  const auto of_loss = std::span(of_loss_).first(n);
   if (sloped) soften(factors_, loss_slope_, result.slope1, result.slope2, {});
-  soften(factors_, of_loss, result.i1, result.i2, {});
+  soften(factors_, of_loss_, result.i1, result.i2, {});
   for (std::size_t i = 0; i < result.across.size(); ++i) result.across[i] *= factors_[i].loss;
+}
+
+void AngularSlopes::take_block(const RingBlock& block) {
+  const std::size_t n = block.size, all = n * block.rows;
+  if (block.rows < 2) return;
+  const std::span<const double> at(held_.data() + block.first, n);
+  const std::span<double> loss(loss_.data() + block.begin, all), square(square_.data() + block.begin, all);
+  (void)angular_integrals(rubber_, at, loss.first(n), square.first(n), {}, loss.subspan(n), square.subspan(n));
+  if (!factors_.empty()) loss_part(rubber_, at, {part_.data() + block.begin, all});
 }
 
 /// `held_` has the frequencies as the rubber knows them; where they are not those of `w`, nothing changes with these.
 void AngularSlopes::add_rings(std::span<const double> w, bool sloped, AngularColumns& result) {
-  const std::size_t n = w.size(), rows = harmonics_;
-  for (auto* const row : {&loss_, &square_, &slopes_}) row->resize(rows * n);
-  whole_.assign(result.i1.begin(), result.i1.begin() + static_cast<std::ptrdiff_t>(n));
-  const std::span<const double> at(held_.data(), n);
-  for (auto* const row : {&i1_[0], &i2_[0]}) row->resize(n);
-  (void)angular_integrals(rubber_, at, i1_[0], i2_[0], {}, loss_, square_);
-  // `order`: n of the row before the first
-  const auto take_slopes = [&](std::span<const double> first, std::span<const double> slope,
-                               std::span<const double> others, std::size_t order) {
-    for (std::size_t m = 0; m < rows; ++m) {
-      const double before = static_cast<double>(order + 2 * m);
-      const double *const value = m == 0 ? first.data() : &others[(m - 1) * n], *const rise =
-                                                                                    m == 0 ? slope.data()
-                                                                                           : &slopes_[(m - 1) * n];
-      for (std::size_t i = 0; i < n; ++i)
-        slopes_[m * n + i] = at[i] == w[i] ? rise[i] - before * value[i] - (before + 2) * others[m * n + i] : 0;
+  using Values = Eigen::ArrayXd;
+  using Row = Eigen::Map<const Values>;
+  for (auto* const rows : {&loss_, &square_}) rows->resize(in_rows_);
+  if (!factors_.empty()) part_.resize(in_rows_);
+  Values rise, next, felt;
+  for (const RingBlock& block : blocks_) {
+    take_block(block);
+    const auto n = static_cast<Eigen::Index>(block.size), harmonics = static_cast<Eigen::Index>(block.harmonics);
+    const auto column = [&](std::vector<double>& of) { return Eigen::Map<Values>(of.data() + block.first, n); };
+    const auto ring = [&](const std::vector<double>& of, Eigen::Index m) {
+      return Row(of.data() + (static_cast<std::size_t>(m) - 1) * rings_.waves + block.first, n);
+    };
+    felt = (Row(held_.data() + block.first, n) == Row(w.data() + block.first, n)).cast<double>();
+    const auto add_squares = [&](const std::vector<double>& rows, std::vector<double>& sums,
+                                 std::vector<double>& slopes) {
+      const auto k = block.of(rows);
+      if (sloped) rise = column(slopes);
+      for (Eigen::Index m = 1; m <= harmonics; ++m) {
+        column(sums) += 2 * ring(rings_.along, m) * k.col(m);
+        if (!sloped) continue;
+        const auto twice = static_cast<double>(2 * m);
+        rise -= (twice - 2) * k.col(m - 1) + twice * k.col(m);
+        column(slopes) += 2 * felt * ring(rings_.along, m) * rise;
+      }
+    };
+    const auto l = block.of(loss_);
+    if (sloped) rise = column(result.slope1);
+    for (Eigen::Index m = 1; m <= harmonics; ++m) {
+      column(result.i1) += ring(rings_.along, m) * (l.col(m - 1) + l.col(m));
+      column(result.across) += ring(rings_.across, m) * (l.col(m - 1) - l.col(m));
+      if (!sloped) continue;
+      const auto twice = static_cast<double>(2 * m);
+      next = rise - (twice - 1) * l.col(m - 1) - (twice + 1) * l.col(m);
+      column(result.slope1) += felt * ring(rings_.along, m) * (rise + next);
+      rise.swap(next);
     }
-  };
-  const auto of_loss = std::span(of_loss_), of_loss_rows = of_loss.subspan(of_loss.empty() ? 0 : n);
-  if (sloped) {
-    take_slopes(result.i1, result.slope1, loss_, 1);
-    add_directions(rings_, {rows, n, slopes_, {}}, result.slope1, {});
-    take_slopes(result.i2, result.slope2, square_, 0);
-    add_directions(rings_, {rows, n, {}, slopes_}, result.slope2);
-    if (!of_loss.empty()) {
-      take_slopes(of_loss.first(n), loss_slope_, of_loss_rows, 0);
-      add_directions(rings_, {rows, n, {}, slopes_}, loss_slope_);
-    }
+    add_squares(square_, result.i2, result.slope2);
+    if (!factors_.empty()) add_squares(part_, of_loss_, loss_slope_);
   }
-  add_directions(rings_, {rows, n, loss_, {}}, result.i1, result.across);
-  add_directions(rings_, {rows, n, {}, square_}, result.i2);
-  if (!of_loss.empty()) add_directions(rings_, {rows, n, {}, of_loss_rows}, of_loss.first(n));
 }
 
 /// The loops take a multiple of `lanes`.

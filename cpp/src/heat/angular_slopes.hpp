@@ -17,15 +17,24 @@ struct AngularColumns {
   void resize(std::size_t n);
 };
 
+/// Nodes that follow each other, as many of whose harmonics matter. The rows of a block, from that of I1 or I2 on, are
+/// one after the other, of as many entries as there are nodes; `rows` is 0 where they are those of another block.
+struct RingBlock {
+  std::size_t first, size, harmonics, begin, rows;
+  [[nodiscard]] Eigen::Map<const Eigen::ArrayXXd> of(const std::vector<double>& all) const {
+    return {all.data() + begin, static_cast<Eigen::Index>(size), static_cast<Eigen::Index>(harmonics) + 1};
+  }
+};
+
 /// What nodes of a grid feel of a rubber: at reduced frequencies v q a_T, with the part of I2 that the loss modulus has
 /// before factors of strain, empty without these; d ln a_T / dT [1/K], and d ln w / d ln q of waves that go along with
-/// q. With directions the isotropic I1 and L_m, K_m and the parts that the loss modulus has of K_m, m from 1 on, in
-/// rows one after the other.
+/// q. With directions L_m, K_m and the parts that the loss modulus has of K_m, in rows of blocks.
 struct FeltModulus {
   std::vector<double> frequency;
   AngularColumns columns;
   std::vector<double> loss_part;
   Eigen::VectorXd rate, along;
+  std::vector<RingBlock> blocks = {};
   std::vector<double> loss_rows = {}, square_rows = {}, loss_part_rows = {};
   AngularColumns beside = {};  // where slopes are means, the same with those over a hundredth of their step
 };
@@ -34,10 +43,12 @@ struct FeltModulus {
 /// a master curve is held at its end. Whether the result stays inside is for the caller to check.
 class AngularSlopes {
  public:
-  /// `factors` and `rings` of the waves that it is asked for, or none.
-  explicit AngularSlopes(const Rubber& rubber, std::vector<ModulusFactors> factors = {}, Rings rings = {});
-  /// How many harmonics of the rings are taken.
-  void take_harmonics(std::size_t count) { harmonics_ = count; }
+  /// Of the nodes of a grid on this surface: with factors of strain wherever the model has some, be they all 1.
+  AngularSlopes(const Rubber& rubber, const ContactModel& model, std::span<const Segment> surface,
+                const Excitation& waves, const ContactGrid& grid);
+  /// As many harmonics of each ring as have more than `least` of I1 or I2, up to so many; `shares` as Directions has
+  /// them.
+  void take_harmonics(const std::vector<double>& shares, double least, std::size_t most);
   /// I1 and I2 alone.
   void values(std::span<const double> w, AngularColumns& result) { solve(w, false, result); }
   void operator()(std::span<const double> w, AngularColumns& result) { solve(w, true, result); }
@@ -55,16 +66,19 @@ class AngularSlopes {
   void of_curve(const MasterCurve& curve, std::span<const double> w, bool sloped, double step, AngularColumns& result);
   void on_panels(const MasterCurve& curve, AngularColumns& result);
   void add_rings(std::span<const double> w, bool sloped, AngularColumns& result);
-  void take_rows(FeltModulus& felt) const;
+  void take_block(const RingBlock& block);
+  void take_rows(FeltModulus& felt);
 
   Rubber rubber_;  // of a series that was fitted the one without that range
   std::vector<ModulusFactors> factors_;
   Rings rings_;
-  std::size_t harmonics_ = 0;
+  std::size_t band_, about_;  // nodes of the band, and where those follow that have their frequencies once more
+  std::vector<RingBlock> blocks_;
+  std::size_t in_rows_ = 0;  // numbers, of all blocks
   const PanelSlopes* panels_ = nullptr;
   double velocity_ = 0;
   std::vector<double> around_[2], i1_[2], i2_[2], held_, of_loss_, loss_slope_;
-  std::vector<double> whole_, loss_, square_, slopes_;  // the isotropic I1, and rows of harmonics
+  std::vector<double> loss_, square_, part_;  // rows of blocks, the last of what E'' has of I2
 };
 
 }  // namespace asperity

@@ -25,7 +25,7 @@ FlashMap::FlashMap(const HeatScene& scene, const HeatGrid& grid)
     : scene_(scene),
       grid_(grid),
       waves_(scene.rubber, scene.model, scene.surface, harmonics_of(scene.spectrum)),
-      angular_(scene.rubber, waves_.factors(grid), waves_.rings(grid)),
+      angular_(scene.rubber, scene.model, scene.surface, waves_, grid),
       contact_(contact_theory(scene.model, scene.spectrum, scene.surface, grid, waves_.directions())),
       unlimited_(unlimited(scene.rubber)),
       unlimited_waves_(unlimited_ ? *unlimited_ : scene.rubber, waves_),
@@ -55,9 +55,9 @@ void FlashMap::take_harmonics() {
   const double cold = std::exp(grid_.highest()) * reduced_frequency(1, point_.temperature),
                hot = std::exp(grid_.lowest()) * reduced_frequency(1, point_.temperature) * slowest;
   const auto held = [&](double w) { return known_ ? std::clamp(w, known_->lowest, known_->highest) : w; };
-  const auto [count, rest] = unlimited_waves_.needed({held(hot), held(cold)}, least * scene_.model.rtol);
-  angular_.take_harmonics(count);
-  rest_of_harmonics_ = rest;
+  rest_of_harmonics_ = least * scene_.model.rtol;
+  angular_.take_harmonics(unlimited_waves_.shares({held(hot), held(cold)}), rest_of_harmonics_,
+                          waves_.directions()->count());
 }
 
 double FlashMap::lateral() const {

@@ -174,24 +174,32 @@ ModulusGradient::Node ModulusGradient::node_at(const Rubber& rubber, double w, d
           e.imag() * e.imag() * (stretch.loss * powers)};
 }
 
-/// What a node has in the integrals at w, `kernel` its weight there. With cos(phi) = w' / w it has cos(2 k phi) times
-/// as much in K_k as in I2, and cos((2 k + 1) phi) / cos(phi) times as much in L_k as in I1.
-void ModulusGradient::add_node(const Node& node, double w, double kernel, Stretch& to, Index place) const {
-  const Index n = to.i2_storage.rows(), first = place * harmonics_ * n + node.first - to.window;
-  double *of_storage = to.i2_storage.data() + first, *of_loss = to.i2_loss.data() + first,
-         *of_i1 = to.i1_loss.data() + first;
+/// What a node has in the integrals at one place, `kernel` its weight there. With cos(phi) = w' / w it has 2 cos(2 m
+/// phi) times as much over a_m as in I1 and I2.
+void ModulusGradient::add_node(const Node& node, double w, double kernel, const Stretch& stretch) {
+  const Index n = i1_loss_.rows(), first = node.first - stretch.window;
+  double *of_storage = i2_storage_.data() + first, *of_loss = i2_loss_.data() + first, *of_i1 = i1_loss_.data() + first;
   const double u = node.w / w, twice = 2 * (2 * u * u - 1), linear = node.loss > 0 ? 4 * kernel * u / node.loss : 0;
-  double even = 1, even_before = twice / 2, odd = 1, odd_before = 1;
-  for (Index k = 0; k < harmonics_; ++k, of_storage += n, of_loss += n, of_i1 += n) {
-    const double square = 8 * kernel * even, by_loss = linear * odd;
+  double now = 1, before = twice / 2;
+  for (Index m = 0; m < harmonics_; ++m, of_storage += n, of_loss += n, of_i1 += n) {
+    const double part = m == 0 ? 1 : 2 * now, square = 8 * kernel * part, by_loss = linear * part;
     for (Index row = 0; row < node.count; ++row) {
       of_storage[row] += square * node.storage_square[row];
       of_loss[row] += square * node.loss_square[row];
       of_i1[row] += by_loss * node.loss_square[row];
     }
-    even_before = std::exchange(even, twice * even - even_before);
-    odd_before = std::exchange(odd, twice * odd - odd_before);
+    before = std::exchange(now, twice * now - before);
   }
+}
+
+void ModulusGradient::put(Stretch& stretch, std::size_t place) {
+  const auto put_one = [&](const Eigen::MatrixXd& from, Eigen::MatrixXd& to) {
+    to.resize(from.rows(), places * harmonics_);
+    for (Index m = 0; m < harmonics_; ++m) to.col(m * places + static_cast<Index>(place)) = from.col(m);
+  };
+  put_one(i2_storage_, stretch.i2_storage);
+  put_one(i2_loss_, stretch.i2_loss);
+  put_one(i1_loss_, stretch.i1_loss);
 }
 
 void ModulusGradient::take_integrals() {
@@ -227,81 +235,80 @@ void ModulusGradient::take_integrals() {
     Stretch& stretch = stretches_[i];
     while (stretches_[stretch.near].high <= settled * stretch.low) ++stretch.near;
     stretch.window = stretches_[stretch.near].first;
-    for (auto* const matrix : {&stretch.i2_storage, &stretch.i2_loss, &stretch.i1_loss})
-      matrix->setZero(stretch.first + stretch.count - stretch.window, places * harmonics_);
-    for (Index place = 0; place < places; ++place) {
-      const double s = lagrange.place()[static_cast<std::size_t>(place)];
+    for (std::size_t place = 0; place < places; ++place) {
+      for (auto* const matrix : {&i2_storage_, &i2_loss_, &i1_loss_})
+        matrix->setZero(stretch.first + stretch.count - stretch.window, harmonics_);
+      const double s = lagrange.place()[place];
       const double w = stretch.low * std::pow(stretch.high / stretch.low, s * s);
-      stretch.inverse_w[static_cast<std::size_t>(place)] = 1 / w;
+      stretch.inverse_w[place] = 1 / w;
       std::size_t near = stretch.near;  // the first stretch that reaches beyond `far`
       while (stretches_[near].high <= far * w) ++near;
       const bool tail_near = near == 0 && lowest > far * w;
       for (std::size_t k = tail_near ? rule.n : stretch.near == 0 ? 0 : first[stretch.near]; k < first[near]; ++k) {
         const double u = nodes[k].w / w;
-        add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), stretch, place);
+        add_node(nodes[k], w, nodes[k].weight / (w * std::sqrt((1 - u) * (1 + u))), stretch);
       }
       const auto add_near = [&](double low, double high) {
         const double from = std::acos(std::fmin(1, high / w)), half = (std::acos(low / w) - from) / 2;
         const LegendreRule& near_rule = legendre_rule(4 + static_cast<std::size_t>(last * half));
         for (std::size_t j = 0; j < near_rule.n; ++j) {
           const double at = w * std::cos(from + half * (1 + near_rule.node[j]));
-          add_node(node_at(rubber, at, 0), w, half * near_rule.weight[j], stretch, place);
+          add_node(node_at(rubber, at, 0), w, half * near_rule.weight[j], stretch);
         }
       };
       if (tail_near) add_near(0, lowest);
       for (std::size_t k = near; k <= i; ++k) add_near(stretches_[k].low, std::fmin(stretches_[k].high, w));
+      put(stretch, place);
     }
   }
 }
 
-void IntegralSlopes::clear() {
-  for (auto* const column : {&w, &log_w, &i1, &storage, &loss}) column->clear();
+PlaceSlopes::PlaceSlopes(std::size_t places, const IntegralSlopes& of) : of_(of), columns_(places) {
+  std::size_t most = of.mean.size();
+  for (const IntegralSlopes::Wave& wave : of.waves) most = std::max(most, wave.rings.size());
+  for (auto* const all : {&i1, &storage, &loss})
+    if (all != &loss || of.parted) all->setZero(static_cast<Index>(places), static_cast<Index>(most) + 1);
 }
 
-void IntegralSlopes::add(double at, double log_at, double by_i1, double by_storage, double by_loss, const double* of_i1,
-                         const double* of_i2) {
-  if (by_i1 == 0 && by_storage == 0 && by_loss == 0) return;
-  w.push_back(at);
-  log_w.push_back(log_at);
-  for (std::size_t k = 0; k < rows; ++k) {
-    i1.push_back(by_i1 * of_i1[k]);
-    storage.push_back(by_storage * of_i2[k]);
-    if (parted) loss.push_back(by_loss * of_i2[k]);
-  }
+void PlaceSlopes::finish() {
+  const auto count = static_cast<Index>(of_.mean.size());
+  const Eigen::Map<const Eigen::RowVectorXd> mean(of_.mean.data(), count);
+  for (auto* const all : {&i1, &storage, &loss})
+    if (all->cols() > 0) all->leftCols(count).noalias() += all->rightCols(1) * mean;
+}
+
+Index PlaceSlopes::columns(std::size_t first, std::size_t n) const {
+  return static_cast<Index>(std::ranges::max(std::span(columns_).subspan(first, n)));
 }
 
 void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, VectorXd& loss) const {
   storage = loss = VectorXd::Zero(static_cast<Index>(rows_.size()));
-  if (of.w.empty()) return;
-  const auto [lowest, highest] = std::ranges::minmax(of.w);
-  const std::size_t begin = stretch_at(lowest), end = stretch_at(highest) + 1;
-  const Index columns = places * harmonics_;
-  VectorXd i1 = VectorXd::Zero(static_cast<Index>(end - begin) * columns), of_storage = i1, of_loss = i1;
+  if (of.waves.empty()) return;
+  const auto [lowest, highest] = std::ranges::minmax(of.waves, {}, &IntegralSlopes::Wave::w);
+  const std::size_t begin = stretch_at(lowest.w), end = stretch_at(highest.w) + 1;
+  PlaceSlopes at(places * (end - begin), of);
   std::size_t k = begin;
-  for (std::size_t j = 0; j < of.w.size(); ++j) {
-    const double at = of.w[j];
-    if (at < breaks_[k] || (k + 1 < breaks_.size() && at >= breaks_[k + 1])) k = stretch_at(at);
-    const std::array<double, 6> share = lagrange(std::sqrt(place(stretches_[k], of.log_w[j])));
-    const Index first = static_cast<Index>(k - begin) * columns;
-    spread(share, &of.i1[j * of.rows], of.rows, &i1[first]);
-    spread(share, &of.storage[j * of.rows], of.rows, &of_storage[first]);
-    if (of.parted) spread(share, &of.loss[j * of.rows], of.rows, &of_loss[first]);
+  for (const IntegralSlopes::Wave& wave : of.waves) {
+    if (wave.w < breaks_[k] || (k + 1 < breaks_.size() && wave.w >= breaks_[k + 1])) k = stretch_at(wave.w);
+    at.add(wave, lagrange(std::sqrt(place(stretches_[k], wave.log_w))), places * (k - begin));
   }
-  if (!of.parted) of_loss = of_storage;
-  // far above, cos(2 k phi) is (-1)^k, and cos((2 k + 1) phi) / cos(phi) that times 2 k + 1
+  at.finish();
+  const Eigen::MatrixXd& of_loss = of.parted ? at.loss : at.storage;
   std::vector<Eigen::Vector3d> settled_by(stretches_.size() + 1, Eigen::Vector3d::Zero());
   for (std::size_t i = begin; i < end; ++i) {
     const Stretch& stretch = stretches_[i];
-    const Index from = static_cast<Index>(i - begin) * columns, n = stretch.i2_storage.rows();
-    storage.segment(stretch.window, n).noalias() += stretch.i2_storage * of_storage.segment(from, columns);
-    loss.segment(stretch.window, n).noalias() += stretch.i2_loss * of_loss.segment(from, columns);
-    loss.segment(stretch.window, n).noalias() += stretch.i1_loss * i1.segment(from, columns);
-    Index column = from;
-    for (const double inverse : stretch.inverse_w)
-      for (Index h = 0; h < harmonics_; ++h, ++column) {
-        const double sign = h % 2 == 0 ? inverse : -inverse;
-        settled_by[stretch.near] += Eigen::Vector3d(sign * of_storage[column], sign * of_loss[column],
-                                                    sign * static_cast<double>(2 * h + 1) * inverse * i1[column]);
+    const auto first = static_cast<Index>(places * (i - begin));
+    const Index n = stretch.i2_storage.rows(), columns = at.columns(places * (i - begin), 1);
+    const auto here = [&](const Eigen::MatrixXd& all) { return all.block(first, 0, places, columns).reshaped(); };
+    storage.segment(stretch.window, n).noalias() += stretch.i2_storage.leftCols(places * columns) * here(at.storage);
+    loss.segment(stretch.window, n).noalias() += stretch.i2_loss.leftCols(places * columns) * here(of_loss);
+    loss.segment(stretch.window, n).noalias() += stretch.i1_loss.leftCols(places * columns) * here(at.i1);
+    for (Index m = 0; m < columns; ++m)
+      for (Index p = 0; p < places; ++p) {  // far above, cos(2 m phi) is (-1)^m
+        const double inverse = stretch.inverse_w[static_cast<std::size_t>(p)], size = m == 0 ? inverse : 2 * inverse,
+                     part = m % 2 == 0 ? size : -size;
+        settled_by[stretch.near] += Eigen::Vector3d(part * at.storage(first + p, m), part * of_loss(first + p, m),
+                                                    part * inverse * at.i1(first + p, m));
       }
   }
   Eigen::Vector3d by = Eigen::Vector3d::Zero();

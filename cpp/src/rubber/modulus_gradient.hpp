@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -10,28 +11,55 @@
 
 namespace asperity {
 
-/// The slopes of a number over I1 and the parts of I2 that E' and E'' have, at frequencies `w`; with harmonics over L_k
-/// and the parts of K_k, k from 0, I1 and I2 themselves, to their number, beside each other.
+/// The slopes of a number over I1 and the parts of I2 that E' and E'' have, of waves at frequencies. With directions a
+/// wave has I1 + sum a_m (L_m-1 + L_m) and I2 + 2 sum a_m K_m.
 struct IntegralSlopes {
-  std::size_t rows = 1;
-  bool parted = false;  // E'' has not the same factor in I2 as E': else `loss` is empty
-  std::vector<double> w, log_w, i1, storage, loss;
-  /// Each over as many `rows` of a wave, which has them times `of_i1` and `of_i2`.
-  void add(double at, double log_at, double by_i1, double by_storage, double by_loss, const double* of_i1,
-           const double* of_i2);
-  void clear();
+  struct Wave {
+    double w, log_w, i1, storage, loss;
+    std::span<const double> rings;  // 1 and its a_m, none where they are those of all roughness
+  };
+  std::vector<Wave> waves;
+  std::span<const double> mean;  // 1 and a_m of all roughness
+  bool parted = false;           // E'' has not the same factor in I2 as E'
 };
 
-/// To polynomials with these values at a place: what each row of it has, beside each other.
-template <std::size_t places>
-void spread(const std::array<double, places>& share, const double* by, std::size_t rows, double* to) {
-  if (rows == 1) {
-    const double one = *by;
-    for (std::size_t p = 0; p < places; ++p) to[p] += one * share[p];
-    return;
-  }
-  for (const double part : share)
-    for (std::size_t h = 0; h < rows; ++h) *to++ += by[h] * part;
+/// The same over polynomials' values at places, and with directions over a_m times these: a row a place, a column a
+/// harmonic from 0 on. What waves with the rings of all roughness have is multiplied by these in the end.
+class PlaceSlopes {
+ public:
+  PlaceSlopes(std::size_t places, const IntegralSlopes& of);
+  /// A wave with these shares of places that follow each other.
+  template <std::size_t n>
+  void add(const IntegralSlopes::Wave& wave, const std::array<double, n>& share, std::size_t first);
+  void finish();
+  /// How many columns matter of waves whose first place is one of these.
+  [[nodiscard]] Eigen::Index columns(std::size_t first, std::size_t n) const;
+
+  Eigen::MatrixXd i1, storage, loss;  // the last where E' and E'' are parted
+
+ private:
+  const IntegralSlopes& of_;
+  std::vector<std::size_t> columns_;
+};
+
+template <std::size_t n>
+void PlaceSlopes::add(const IntegralSlopes::Wave& wave, const std::array<double, n>& share, std::size_t first) {
+  static constexpr double alone = 1;
+  const bool own = !wave.rings.empty();
+  const std::span<const double> rings = own ? wave.rings : std::span(&alone, 1);
+  const auto places = static_cast<std::size_t>(i1.rows());
+  const auto add_to = [&](Eigen::MatrixXd& all, double by) {
+    double* to = all.data() + first + (own ? 0 : places * (static_cast<std::size_t>(all.cols()) - 1));
+    for (const double ring : rings) {
+      const double part = by * ring;
+      for (std::size_t p = 0; p < n; ++p) to[p] += part * share[p];
+      to += places;
+    }
+  };
+  add_to(i1, wave.i1);
+  add_to(storage, wave.storage);
+  if (of_.parted) add_to(loss, wave.loss);
+  columns_[first] = std::max(columns_[first], (own ? wave.rings : of_.mean).size());
 }
 
 /// Rows of a modulus at rising angular frequencies: those of a master curve, or of a Prony series steps of ln w between
@@ -59,8 +87,8 @@ class ModulusGradient {
     double log_low = 0, per_length = 0;  // 1 / ln(high / low)
     Eigen::Matrix<double, most_rows, 4> storage = decltype(storage)::Zero(), loss = decltype(loss)::Zero();
     std::array<double, places> inverse_w{};
-    // d I2 / d ln E', d I2 / d ln E'' and d I1 / d ln E'' at its places: a row a row from `window` on, a column a
-    // harmonic of a place, but for what the stretches before `near` have, which is far below
+    // d I2 / d ln E', d I2 / d ln E'' and d I1 / d ln E'' at its places, over a_m as far as there are such: a row a row
+    // from `window` on, a column a place of a harmonic, but for what the stretches before `near` have, far below
     std::size_t near = 0;
     Eigen::Index window = 0;
     Eigen::MatrixXd i2_storage{}, i2_loss{}, i1_loss{};
@@ -78,13 +106,15 @@ class ModulusGradient {
   void take_rows(const MasterCurve& curve);
   void take_integrals();
   [[nodiscard]] Node node_at(const Rubber& rubber, double w, double weight) const;
-  void add_node(const Node& node, double w, double kernel, Stretch& to, Eigen::Index place) const;
+  void add_node(const Node& node, double w, double kernel, const Stretch& stretch);
+  void put(Stretch& stretch, std::size_t place);
   [[nodiscard]] std::size_t stretch_at(double w) const;
 
   const Rubber& rubber_;
   std::vector<double> rows_, breaks_;
   std::vector<Stretch> stretches_;
-  Eigen::Index harmonics_;  // I1 and I2 among them
+  Eigen::Index harmonics_;                          // I1 and I2 among them
+  Eigen::MatrixXd i2_storage_, i2_loss_, i1_loss_;  // of one place, a column a harmonic
 };
 
 }  // namespace asperity

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "numerics/interpolation.hpp"
@@ -27,13 +26,12 @@ const Lagrange<points> lagrange({0, 1, 2, 3, 4, 5, 6, 7});
 
 }  // namespace
 
-SeriesSlopes::SeriesSlopes(const PronySeries& series, double lowest, double highest, std::size_t harmonics)
-    : series_(series),
-      harmonics_(static_cast<Index>(harmonics) + 1),
-      first_((std::floor(std::log(lowest) / step) - points) * step) {
+SeriesSlopes::SeriesSlopes(const PronySeries& series, double lowest, double highest)
+    : series_(series), first_((std::floor(std::log(lowest) / step) - points) * step) {
   const auto n = static_cast<Index>(series.moduli().size());
   const auto count = static_cast<Index>(std::ceil(std::log(highest / lowest) / step)) + 2 * points;
-  for (auto* const matrix : {&share_over_t_, &share_, &slope_over_t_, &slope_}) matrix->resize(n, count * harmonics_);
+  for (auto* const matrix : {&share_over_t_, &share_, &slope_over_t_, &slope_, &u_, &inverse_root_})
+    matrix->resize(n, count);
   for (auto* const matrix : {&of_weights_, &of_weights_by_time_}) matrix->resize(n, n);
   const auto e = VectorXd::Map(series.moduli().data(), n), tau = VectorXd::Map(series.relaxation_times().data(), n);
   for (Index k = 0; k < n; ++k)
@@ -46,52 +44,76 @@ SeriesSlopes::SeriesSlopes(const PronySeries& series, double lowest, double high
   for (Index j = 0; j < count; ++j)
     for (Index k = 0; k < n; ++k) {
       const double t = std::fmin(std::exp(first_ + static_cast<double>(j) * step) * tau[k], largest_x);
-      const double root = std::sqrt(1 + t * t);
-      const double y = t / (1 + root);
-      double power = 1;  // u^m
-      for (Index m = 0; m < harmonics_; ++m, power *= -y * y) {
-        const Index column = j * harmonics_ + m;
-        const double rise = 2 * static_cast<double>(m) / root;  // d ln u^m / d ln t
-        share_over_t_(k, column) = power * y / root;
-        slope_over_t_(k, column) = share_over_t_(k, column) * ((1 + root) / root / root + rise);
-        share_(k, column) = m == 0 ? t * share_over_t_(k, column) : -power / root;
-        slope_(k, column) = m == 0 ? t * slope_over_t_(k, column) : share_(k, column) * (rise - t / root * (t / root));
-      }
+      const double root = std::sqrt(1 + t * t), y = t / (1 + root);
+      share_over_t_(k, j) = y / root;
+      slope_over_t_(k, j) = y / root * ((1 + root) / root / root);
+      share_(k, j) = t * share_over_t_(k, j);
+      slope_(k, j) = t * slope_over_t_(k, j);
+      u_(k, j) = -y * y;
+      inverse_root_(k, j) = 1 / root;
     }
 }
 
 SeriesGradient SeriesSlopes::operator()(const IntegralSlopes& of) const {
-  const Index count = share_.cols() / harmonics_, n = share_.rows();
-  VectorXd by_i1 = VectorXd::Zero(share_.cols()), by_i2 = by_i1;
-  Index begin = share_.cols(), end = 0;
+  const Index count = share_.cols(), n = share_.rows();
+  PlaceSlopes at(static_cast<std::size_t>(count), of);
+  Index begin = count, end = 0;
   double by_whole_i2 = 0;
-  for (std::size_t j = 0; j < of.w.size(); ++j) {
-    const double x = std::clamp((of.log_w[j] - first_) / step, 0.0, static_cast<double>(count - 1));
+  for (const IntegralSlopes::Wave& wave : of.waves) {
+    const double x = std::clamp((wave.log_w - first_) / step, 0.0, static_cast<double>(count - 1));
     const Index from = std::clamp<Index>(static_cast<Index>(x) - points / 2 + 1, 0, count - points);
-    const std::array<double, points> share = lagrange(x - static_cast<double>(from));
-    spread(share, &of.i1[j * of.rows], of.rows, &by_i1[from * harmonics_]);
-    spread(share, &of.storage[j * of.rows], of.rows, &by_i2[from * harmonics_]);
-    by_whole_i2 += of.storage[j * of.rows];
-    begin = std::min(begin, from * harmonics_);
-    end = std::max(end, (from + points) * harmonics_);
+    at.add(wave, lagrange(x - static_cast<double>(from)), static_cast<std::size_t>(from));
+    by_whole_i2 += wave.storage;
+    begin = std::min(begin, from);
+    end = std::max(end, from + points);
   }
+  at.finish();
   if (end == 0) begin = 0;
-  const auto over = [&](const Eigen::MatrixXd& known, const VectorXd& by) -> VectorXd {
-    return 2 * pi * (known.middleCols(begin, end - begin) * by.segment(begin, end - begin));
+  const auto over = [&](const Eigen::MatrixXd& known, const Eigen::MatrixXd& by) -> VectorXd {
+    return known.middleCols(begin, end - begin) * by.col(0).segment(begin, end - begin);
   };
+  // over E_k as it stands in I1 and over w_k, and over ln t_k of both
+  VectorXd linear = over(share_over_t_, at.i1), weight = over(share_, at.storage),
+           linear_by_time = over(slope_over_t_, at.i1) - linear, weight_by_time = over(slope_, at.storage);
+  Eigen::ArrayXd i1, i1_slope, i2, i2_slope, v;  // sums of a_m u^(m - 1), and these over u
+  for (Index j = begin; j < end; ++j) {
+    const Index first = std::max<Index>(j - points + 1, 0),
+                columns = at.columns(static_cast<std::size_t>(first), static_cast<std::size_t>(j - first + 1));
+    if (columns < 2) continue;
+    for (auto* const sum : {&i1, &i1_slope, &i2, &i2_slope}) sum->setZero(n);
+    const auto u = u_.col(j).array(), inverse = inverse_root_.col(j).array(), share = share_over_t_.col(j).array();
+    for (Index m = columns - 1; m > 0; --m) {
+      i1_slope = i1_slope * u + i1;
+      i2_slope = i2_slope * u + i2;
+      i1 = i1 * u + at.i1(j, m);
+      i2 = i2 * u + at.storage(j, m);
+    }
+    v = 2 * u * inverse;  // du / d ln t
+    linear.array() += share * (1 + u) * i1;
+    linear_by_time.array() +=
+        (slope_over_t_.col(j).array() - share) * (1 + u) * i1 + share * v * (i1 + (1 + u) * i1_slope);
+    weight.array() -= v * i2;
+    weight_by_time.array() -= v * ((2 * inverse - 1 + inverse * inverse) * i2 + v * i2_slope);
+  }
   const auto e = VectorXd::Map(series_.moduli().data(), n), weights = VectorXd::Map(series_.weights().data(), n);
   const double e_inf = series_.equilibrium_modulus();
-  // over E_k as it stands in I1 and over w_k
-  const VectorXd linear = over(share_over_t_, by_i1), weight = over(share_, by_i2);
+  for (VectorXd* const one : {&linear, &weight, &linear_by_time, &weight_by_time}) *one *= 2 * pi;
   SeriesGradient result;
   result.equilibrium_modulus = 4 * pi * e_inf * e_inf * by_whole_i2 + 2 * e_inf * weight.dot(e);
   result.moduli = e.cwiseProduct(linear) + weight.cwiseProduct(weights) + of_weights_ * weight;
-  result.relaxation_times = e.cwiseProduct(over(slope_over_t_, by_i1) - linear) +
-                            weights.cwiseProduct(over(slope_, by_i2)) + of_weights_by_time_ * weight;
+  result.relaxation_times =
+      e.cwiseProduct(linear_by_time) + weights.cwiseProduct(weight_by_time) + of_weights_by_time_ * weight;
   if (!of.parted) return result;
-  std::vector<double> beside(of.loss.size());  // of I2 as a whole, and of its part by E'' what it has beside that
-  std::ranges::transform(of.loss, of.storage, beside.begin(), std::minus());
-  loss_part_gradient(series_, of.w, beside, {result.moduli.data(), static_cast<std::size_t>(n)},
+  // of I2 as a whole, and of its part by E'' what it has beside that
+  const auto rows = static_cast<std::size_t>(at.i1.cols()) - 1;
+  std::vector<double> w, beside(rows * of.waves.size());
+  for (const IntegralSlopes::Wave& wave : of.waves) {
+    const std::span<const double> rings = wave.rings.empty() ? of.mean : wave.rings;
+    for (std::size_t m = 0; m < rings.size(); ++m)
+      beside[rows * w.size() + m] = (m == 0 ? 1 : 2 * rings[m]) * (wave.loss - wave.storage);
+    w.push_back(wave.w);
+  }
+  loss_part_gradient(series_, w, beside, {result.moduli.data(), static_cast<std::size_t>(n)},
                      {result.relaxation_times.data(), static_cast<std::size_t>(n)});
   return result;
 }

@@ -17,16 +17,15 @@ struct SeriesGradient {
 /// integrals are polynomials, so that a point takes products of matrices that are known once.
 class SeriesSlopes {
  public:
-  /// For integrals at frequencies in [lowest, highest] [rad/s], and so many harmonics beside them.
-  SeriesSlopes(const PronySeries& series, double lowest, double highest, std::size_t harmonics = 0);
+  /// For integrals at frequencies in [lowest, highest] [rad/s].
+  SeriesSlopes(const PronySeries& series, double lowest, double highest);
   [[nodiscard]] SeriesGradient operator()(const IntegralSlopes& of) const;
 
  private:
   const PronySeries& series_;
-  Eigen::Index harmonics_;  // I1 and I2 among them
-  double first_;            // ln w, a whole number of steps: what a point has does not depend on the others of a call
-  // of each term, a harmonic of a step: s / t, s, ds / d ln t over t, ds / d ln t
-  Eigen::MatrixXd share_over_t_, share_, slope_over_t_, slope_;
+  double first_;  // ln w, a whole number of steps: what a point has does not depend on the others of a call
+  // of each term at each step: s / t, s, ds / d ln t over t, ds / d ln t, u and 1 / r
+  Eigen::MatrixXd share_over_t_, share_, slope_over_t_, slope_, u_, inverse_root_;
   Eigen::MatrixXd of_weights_, of_weights_by_time_;  // what w_k have of each E_l and tau_l beside those of their own
 };
 

@@ -36,6 +36,7 @@ STRAIN = asperity.StrainFactors(
     storage=[0.95, 0.75, 0.45, 0.34, 0.3],
     loss=[1.1, 1.25, 0.8, 0.5, 0.41],
 )
+UNSOFTENED = asperity.StrainFactors(strain=[0.001, 0.01, 50], storage=[1, 1, 1], loss=[1, 1, 1])
 HEATING = tread()
 AREA = with_changes(HEATING, macro_area=0.1, residence="box", interface_share=0.9)
 SMALL = with_changes(HEATING, contact_diameter=1e-5)  # as long as the shortest waves
@@ -67,6 +68,7 @@ SCENES = {
     "heat of rolled ridges": (ROLLED, SERIES, {"heating": HEATING, "correction": PARTIAL}),
     "heat of all ridges": (ROLLED, SERIES, {"heating": SMALL, "correction": TOPS}),
     "heat and strain": (ROAD, SERIES, {"heating": HEATING, "strain_factors": STRAIN}),
+    "heat and factors of 1": (ROAD, SERIES, {"heating": HEATING, "strain_factors": UNSOFTENED}),
 }
 NAMES = {
     "strain_factors": ("strain_per_slope",),

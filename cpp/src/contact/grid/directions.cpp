@@ -108,37 +108,58 @@ Rings Directions::at_nodes(const ContactGrid& grid) const {
   return result;
 }
 
-Directions::Needed Directions::needed(const Rubber& rubber, const FrequencyRange& range, double least,
-                                      bool parted) const {
-  if (count() == 1) return {1, 0};  // which is quicker than to see whether it matters
-  constexpr double longest = 0.5;   // in ln w, over which shares of harmonics change little
+namespace {
+
+/// A function of m: what harmonics have of I1, I2 or the force across in a range of frequencies, over their size.
+auto harmonic_shares(const Rubber& rubber, const FrequencyRange& range, std::size_t count, bool parted) {
+  constexpr double longest = 0.5;  // in ln w, over which shares of harmonics change little
   const double length = std::log(range.highest / range.lowest);
   const auto steps = static_cast<std::size_t>(std::ceil(length / longest)) + 1, n = (steps + 4) / 4 * 4;
   std::vector<double> w;
   for (std::size_t i = 0; i < n; ++i)
     w.push_back(std::clamp(range.lowest * std::exp(length * static_cast<double>(i) / static_cast<double>(n - 1)),
                            range.lowest, range.highest));
-  const AngularHarmonics of = angular_harmonics(rubber, w, count());
-  std::vector<std::vector<double>> squares{of.square};
-  if (parted) {
-    squares.emplace_back(of.square.size());
-    loss_part(rubber, w, squares[1]);
-    for (std::size_t i = 0; i < squares[0].size(); ++i) squares[0][i] -= squares[1][i];
-  }
-  const auto share = [n](const std::vector<double>& row, std::size_t m, std::size_t i) {
-    return row[i] > 0 ? std::fabs(row[m * n + i] / row[i]) : 0;
+  const AngularHarmonics of = angular_harmonics(rubber, w, count);
+  const auto over_first = [&](const std::vector<double>& rows) -> Eigen::ArrayXXd {
+    const Eigen::Map<const Eigen::ArrayXXd> all(rows.data(), std::ssize(w), static_cast<Eigen::Index>(count) + 1);
+    return (all.colwise() * (all.col(0) > 0).select(1 / all.col(0), 0)).abs();
   };
+  std::vector<Eigen::ArrayXXd> squares{over_first(of.square)};
+  if (parted) {
+    std::vector<double> part(of.square.size());
+    loss_part(rubber, w, part);
+    squares.push_back(over_first(part));
+    for (std::size_t i = 0; i < part.size(); ++i) part[i] = of.square[i] - part[i];
+    squares.push_back(over_first(part));
+  }
+  return [loss = over_first(of.loss), squares = std::move(squares)](std::size_t m) {
+    const auto at = static_cast<Eigen::Index>(m);
+    double most = (loss.col(at - 1) + loss.col(at)).maxCoeff();
+    for (const Eigen::ArrayXXd& square : squares) most = std::fmax(most, 2 * square.col(at).maxCoeff());
+    return most;
+  };
+}
+
+}  // namespace
+
+Directions::Needed Directions::needed(const Rubber& rubber, const FrequencyRange& range, double least,
+                                      bool parted) const {
+  if (count() == 1) return {1, 0};  // which is quicker than to see whether it matters
+  const auto share = harmonic_shares(rubber, range, count(), parted);
   double rest = 0;
   for (std::size_t m = count(); m > 0; --m) {
-    double most = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      most = std::fmax(most, share(of.loss, m - 1, i) + share(of.loss, m, i));
-      for (const std::vector<double>& square : squares) most = std::fmax(most, 2 * share(square, m, i));
-    }
-    if (rest + means_.most[m - 1] * most > least) return {m, rest};
-    rest += means_.most[m - 1] * most;
+    const double part = means_.most[m - 1] * share(m);
+    if (rest + part > least) return {m, rest};
+    rest += part;
   }
   return {0, rest};
+}
+
+std::vector<double> Directions::shares(const Rubber& rubber, const FrequencyRange& range, bool parted) const {
+  const auto share = harmonic_shares(rubber, range, count(), parted);
+  std::vector<double> result;
+  for (std::size_t m = 1; m <= count(); ++m) result.push_back(share(m));
+  return result;
 }
 
 }  // namespace asperity

@@ -63,6 +63,8 @@ class Directions {
     double rest;
   };
   [[nodiscard]] Needed needed(const Rubber& rubber, const FrequencyRange& range, double least, bool parted) const;
+  /// What each harmonic of a ring has of these at most, over its size.
+  [[nodiscard]] std::vector<double> shares(const Rubber& rubber, const FrequencyRange& range, bool parted) const;
 
  private:
   void turn(const double* cosine, const double* sine, Rings& to, std::size_t wave) const;

@@ -100,6 +100,10 @@ Directions::Needed Excitation::needed(const FrequencyRange& range, double least)
   return directions_->needed(rubber_, range, least, softening_.has_value());
 }
 
+std::vector<double> Excitation::shares(const FrequencyRange& range) const {
+  return directions_ ? directions_->shares(rubber_, range, softening_.has_value()) : std::vector<double>{};
+}
+
 std::vector<double> Excitation::stops() const {
   if (!softening_) return {};
   std::vector<double> result = softening_->kinks();

@@ -78,8 +78,9 @@ class Excitation {
   [[nodiscard]] std::vector<ModulusFactors> factors(const ContactGrid& grid) const;
   /// Of waves; none where they are means over directions.
   [[nodiscard]] Rings rings(const ContactGrid& grid) const;
-  /// How many of their harmonics matter, as Directions::needed.
+  /// How many of their harmonics matter, as Directions::needed, and what each has at most.
   [[nodiscard]] Directions::Needed needed(const FrequencyRange& range, double least) const;
+  [[nodiscard]] std::vector<double> shares(const FrequencyRange& range) const;
 
   /// At frequencies [rad/s], with the factors of as many waves or none. As `angular_integrals` otherwise.
   bool operator()(std::span<const double> w, std::span<const ModulusFactors> factors, std::span<double> i1,
