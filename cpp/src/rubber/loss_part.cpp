@@ -6,6 +6,7 @@
 // u_k^m / r_k in the place of 1 / r_k = 1 - s_k, and a pair has its divided difference over x^2.
 #include "rubber/loss_part.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -50,54 +51,60 @@ void visit_pairs(const PronySeries& series, Near near_pair, Far far_pair) {
 }  // namespace
 
 void loss_part(const PronySeries& series, std::span<const double> w, std::span<double> part, std::span<double> slope) {
-  const std::vector<double>& tau = series.relaxation_times();
-  const std::size_t terms = tau.size();
-  std::vector<double> weight(terms), x(terms), r(terms);
+  constexpr std::size_t lanes = 4;  // frequencies at a time
+  using Lanes = Eigen::Array<double, lanes, 1>;
+  using Block = Eigen::Array<double, lanes, Eigen::Dynamic>;
+  const auto terms = static_cast<Eigen::Index>(series.relaxation_times().size());
+  Eigen::RowVectorXd weight = Eigen::RowVectorXd::Zero(terms);
   std::vector<Pair> pairs;
   visit_pairs(
       series, [&](const Pair& pair) { pairs.push_back(pair); },
       [&](const FarPair& pair) {
-        weight[pair.k] += pair.weight;
-        weight[pair.l] -= pair.weight;
+        weight[static_cast<Eigen::Index>(pair.k)] += pair.weight;
+        weight[static_cast<Eigen::Index>(pair.l)] -= pair.weight;
       });
   const std::size_t n = w.size(), rows = n > 0 ? part.size() / n : 0;
-  std::vector<double> u(terms), power(terms), between(pairs.size());
-  for (std::size_t i = 0; i < n; ++i) {
-    double sum = 0, rise = 0;
-    for (std::size_t k = 0; k < terms; ++k) {
-      x[k] = std::fmin(w[i] * tau[k], largest_x);
-      r[k] = std::sqrt(1 + x[k] * x[k]);
-      const double y = x[k] / r[k];
-      sum += weight[k] * y * (x[k] / (r[k] + 1));
-      rise += weight[k] * y * y / r[k];
+  const auto near_pairs = std::ssize(pairs);
+  Block x(lanes, terms), r, inverse, y, half, power;
+  Block value(lanes, near_pairs), u_k = value, u_l = value, by_between = value, power_l, between;  // of pairs
+  for (std::size_t first = 0; first < n; first += lanes) {
+    const std::size_t here = std::min(lanes, n - first);
+    const auto put = [&](const Lanes& sum, double* to) {
+      for (std::size_t i = 0; i < here; ++i) to[first + i] = 2 * std::numbers::pi * sum[static_cast<Eigen::Index>(i)];
+    };
+    const auto over_terms = [&](const Block& of) -> Lanes { return (of.matrix() * weight.transpose()).array(); };
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+      for (Eigen::Index k = 0; k < terms; ++k)
+        x(i, k) = std::fmin(w[std::min(first + static_cast<std::size_t>(i), n - 1)] *
+                                series.relaxation_times()[static_cast<std::size_t>(k)],
+                            largest_x);
+    r = (1 + x.square()).sqrt();
+    inverse = 1 / r;
+    y = x * inverse;
+    half = x / (r + 1);
+    Lanes rise = over_terms(y.square() * inverse);
+    for (Eigen::Index j = 0; j < near_pairs; ++j) {
+      const auto& [of_k, of_l, of] = pairs[static_cast<std::size_t>(j)];
+      const auto k = static_cast<Eigen::Index>(of_k), l = static_cast<Eigen::Index>(of_l);
+      const Lanes over_both = 1 / (r.col(k) + r.col(l));
+      value.col(j) = of * y.col(k) * y.col(l) * over_both;
+      rise += value.col(j) *
+              (2 - y.col(k).square() - y.col(l).square() - (x.col(k) * y.col(k) + x.col(l) * y.col(l)) * over_both);
+      if (rows < 2) continue;
+      u_k.col(j) = -half.col(k).square();
+      u_l.col(j) = -half.col(l).square();
+      by_between.col(j) = 2 * value.col(j) * (r.col(l) / (r.col(k) + 1)) / (r.col(l) + 1);
     }
-    for (const auto& [k, l, of] : pairs) {
-      const double a = x[k] / r[k], b = x[l] / r[l], both = r[k] + r[l], value = of * a * b / both;
-      sum += value;
-      rise += value * (2 - a * a - b * b - (x[k] * a + x[l] * b) / both);
-    }
-    part[i] = 2 * std::numbers::pi * sum;
-    if (!slope.empty()) slope[i] = 2 * std::numbers::pi * rise;
-    if (rows < 2) continue;
-    for (std::size_t k = 0; k < terms; ++k) {
-      const double y = x[k] / (r[k] + 1);
-      u[k] = -y * y;
-      power[k] = 1 / r[k];
-    }
-    std::ranges::fill(between, 0.0);
+    put(over_terms(y * half) + value.rowwise().sum(), part.data());
+    if (!slope.empty()) put(rise, slope.data());
+    power = inverse;
+    power_l.setOnes(lanes, near_pairs);
+    between.setZero(lanes, near_pairs);
     for (std::size_t m = 1; m < rows; ++m) {
-      double whole = 0;
-      for (std::size_t j = 0; j < pairs.size(); ++j) {
-        const auto& [k, l, of] = pairs[j];
-        between[j] = u[k] * between[j] + power[l] * r[l];
-        const double x_x = (x[k] / r[k]) * (x[l] / r[l]) / (r[k] + r[l]);
-        whole += of * x_x * (2 * between[j] * (r[l] / (r[k] + 1)) / (r[l] + 1) + u[l] * power[l] * r[l]);
-      }
-      for (std::size_t k = 0; k < terms; ++k) {
-        power[k] *= u[k];
-        whole -= weight[k] * power[k];
-      }
-      part[m * n + i] = 2 * std::numbers::pi * whole;
+      between = u_k * between + power_l;
+      power_l *= u_l;
+      power *= -half.square();
+      put((by_between * between + value * power_l).rowwise().sum() - over_terms(power), &part[m * n]);
     }
   }
 }
@@ -108,11 +115,12 @@ namespace {
 double of_pair(double x, double x_other, std::span<const double> by) {
   const double r = std::sqrt(1 + x * x), s = std::sqrt(1 + x_other * x_other);
   const double y = x / (r + 1), z = x_other / (s + 1), u = -y * y, v = -z * z;
+  const double by_between = 2 * (s / (r + 1)) / (s + 1);
   double power = 1, between = 0, sum = 0;
   for (const double one : by) {
     between = u * between + power;
     power *= v;
-    sum += one * (2 * between * (s / (r + 1)) / (s + 1) + power);
+    sum += one * (by_between * between + power);
   }
   return x / r * (x_other / s) / (r + s) * sum;
 }
