@@ -19,15 +19,9 @@ using std::numbers::pi;
 
 namespace {
 
-/// (k / |q|)^2 in the direction `angle` from the lay.
-double squared_stretch(double ratio, double angle) {
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  return ratio * cosine * cosine + sine * sine / ratio;
-}
-
-/// C / C_r at |q| / q_r and an angle from the lay.
-double shape(const SelfAffineSpectrum& s, double x, double angle) {
-  const double k = x * x * squared_stretch(s.axis_ratio, angle);
+/// C / C_r at |q| / q_r, with the square of the cosine of the angle from the lay.
+double shape(const SelfAffineSpectrum& s, double x, double square) {
+  const double k = x * x * (s.axis_ratio * square + (1 - square) / s.axis_ratio);
   return s.rolloff && k < 1 ? 1 : std::pow(k, -1 - s.hurst);
 }
 
@@ -51,8 +45,8 @@ std::vector<double> means(const SelfAffineSpectrum& s, double x, std::size_t n) 
     const std::size_t piece = static_cast<std::size_t>(i) / rule.n, j = static_cast<std::size_t>(i) % rule.n;
     const double half = edge / static_cast<double>(pieces) / 2;
     const double angle = half * (2 * static_cast<double>(piece) + 1 + rule.node[j]);
-    value[i] = 2 / pi * half * rule.weight[j] * shape(s, x, angle);
     twice[i] = 2 * std::cos(2 * angle);
+    value[i] = 2 / pi * half * rule.weight[j] * shape(s, x, (2 + twice[i]) / 4);
   }
   Eigen::ArrayXd before = value * twice / 2, now = value, next;
   for (std::size_t m = 0; m < n; ++m) {
@@ -159,7 +153,8 @@ PlaneDensity::PlaneDensity(const Spectrum& spectrum) : spectrum_(spectrum) {
 double PlaneDensity::operator()(double wavenumber, double direction) const {
   if (pieces_.empty()) {
     const auto& s = std::get<SelfAffineSpectrum>(spectrum_);
-    return top_ * shape(s, wavenumber / s.rolloff.value_or(s.q0), direction - s.lay);
+    const double cosine = std::cos(direction - s.lay);
+    return top_ * shape(s, wavenumber / s.rolloff.value_or(s.q0), cosine * cosine);
   }
   const double mean = std::ranges::lower_bound(pieces_, wavenumber, {}, &Segment::b)->density(wavenumber);
   if (!is_directional(spectrum_)) return mean;
