@@ -19,12 +19,12 @@ namespace asperity {
 struct ContactKey {
   std::uint64_t rubber, heat, strain;  // of what the modulus was; 0 without heat, without strain factors
   double poisson_ratio;
-  double q0, q1;                      // of the filter [1/m]
-  int part;                           // of the scan: -1 all of it, 0 to 3 its quarters
-  bool coarse;                        // on half as many points along a side
-  double pressure;                    // [Pa]
-  double velocity;                    // v a_T [m/s]
-  double direction;                   // of sliding [rad]
+  double q0, q1;     // of the filter [1/m]
+  int part;          // of the scan: -1 all of it, 0 to 3 its quarters
+  bool coarse;       // on half as many points along a side
+  double pressure;   // [Pa]
+  double velocity;   // v a_T [m/s]
+  double direction;  // of sliding [rad]
   auto operator<=>(const ContactKey&) const = default;
 };
 

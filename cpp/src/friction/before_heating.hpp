@@ -17,8 +17,7 @@ Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber,
                                  bool heated);
 
 /// Adds the parts of mu_H, `whole`, to the decades of point i, from those of panels with their ends [1/m].
-void add_decades(Contributions& c, std::size_t i, double velocity, double whole,
-                 std::span<const PanelSum> shares);
+void add_decades(Contributions& c, std::size_t i, double velocity, double whole, std::span<const PanelSum> shares);
 
 /// mu_A per contact share (Eq. 23).
 double adhesion_per_share(const Adhesion& adhesion, double pressure, double velocity);

@@ -271,8 +271,7 @@ void check_points(const ContactModel& model, const std::optional<Adhesion>& adhe
 
 }  // namespace
 
-void add_decades(Contributions& c, std::size_t i, double velocity, double whole,
-                 std::span<const PanelSum> shares) {
+void add_decades(Contributions& c, std::size_t i, double velocity, double whole, std::span<const PanelSum> shares) {
   const std::size_t m = c.decade_edges.size() - 1;
   for (const auto& [lower, upper, hysteresis] : shares) {
     const double w = velocity * std::sqrt(lower * upper);

@@ -219,8 +219,9 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
       before_.back() = {point.velocity, level - 1, found.theta};
     }
     found = polish(finer, found.theta, tangent_, levels_[level].up, levels_[level].down, tolerance);
-    double apart = most_apart(sums_of_cells(map->grid(), map->contributions()),
-                              sums_of_cells(finer.grid(), finer.contributions()), common_ends(map->grid(), finer.grid()));
+    double apart =
+        most_apart(sums_of_cells(map->grid(), map->contributions()), sums_of_cells(finer.grid(), finer.contributions()),
+                   common_ends(map->grid(), finer.grid()));
     map = &finer;
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();
