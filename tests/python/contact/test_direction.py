@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.special import erf
 
 import asperity
 from asperity import (
@@ -158,6 +159,59 @@ def test_harmonics_that_turn_from_ring_to_ring_do_not_matter(rtol):
         for kinds in ({"cosine": turning, "sine": 0 * turning}, {})
     )
     np.testing.assert_allclose(mu, isotropic, rtol=5e-5)
+
+
+def by_definition(spectrum, rubber, pressure, velocity, direction):
+    """Return mu along and across by sums over the plane.
+
+    C is a power law from row to row, its harmonics are straight in ln q.
+    """
+    x, weight = np.polynomial.legendre.leggauss(8)
+    power = np.polynomial.legendre.legvander(x, 7)
+    to_node = np.polynomial.legendre.legint(np.linalg.inv(power), lbnd=-1, axis=0)
+    to_node = np.polynomial.legendre.legval(x, to_node).T
+    rows = np.log(spectrum.wavenumber)
+    front = rows[0] + (rows[1] - rows[0]) * 0.5 ** np.arange(40, 0, -1)  # where G begins
+    ends = np.concatenate([rows[:1], front, rows[1:]])
+    half = np.diff(ends)[:, None] / 2
+    y = ends[:-1, None] + half * (1 + x)
+    q = np.exp(y)
+    roughness = half * weight * q**4 * np.exp(np.interp(y, rows, np.log(spectrum.density)))
+    z = 0.2 * np.arange(220)
+    cosine, phi = 1 / np.cosh(z), np.arctan(np.sinh(z))
+    circle = 4 * 0.2 * cosine * np.where(z > 0, 1, 0.5)
+    modulus = rubber.modulus(velocity * q[..., None] * cosine)
+    square, loss = circle * abs(modulus) ** 2, circle * modulus.imag
+    i2, along, across = square.sum(-1), loss @ cosine, 0
+    for m, (a, b) in enumerate(zip(spectrum.cosine.T, spectrum.sine.T, strict=True), 1):
+        a, b = np.interp(y, rows, a), np.interp(y, rows, b)
+        even, odd = np.cos(2 * m * phi), np.sin(2 * m * phi)
+        ahead = a * np.cos(2 * m * direction) + b * np.sin(2 * m * direction)
+        i2 = i2 + 2 * ahead * (square @ even)
+        along = along + 2 * ahead * (loss @ (cosine * even))
+        behind = b * np.cos(2 * m * direction) - a * np.sin(2 * m * direction)
+        across = across + 2 * behind * (loss @ (np.sin(phi) * odd))
+    load = pressure * (1 - 0.5**2)
+    dg = roughness * i2 / (8 * load**2)
+    before = np.cumsum(dg.sum(1)) - dg.sum(1)
+    stress = erf(0.5 / np.sqrt(before[:, None] + (dg / weight) @ to_node.T)) / (2 * load)
+    return tuple((roughness * stress * part).sum() for part in (along, across))
+
+
+@pytest.mark.parametrize(("seed", "rtol"), [(768, 1e-6), (183, 1e-6), (1062, 1.5e-6)])
+def test_harmonics_that_scatter_from_ring_to_ring(seed, rtol):
+    """Where these take three hundred rings together two levels miss them alike."""
+    q = 2e4 * np.arange(1, 269)
+    cosine, sine = np.random.default_rng(seed).uniform(-0.17, 0.17, (2, q.size, 2))
+    spectrum = TabulatedSpectrum(
+        wavenumber=q, density=5.623886613e-4 * q**-3.7, cosine=cosine, sine=sine
+    )
+    rubber = PronySeries(equilibrium_modulus=3e6, moduli=[1e7, 1e8], relaxation_times=[1e-3, 1e-6])
+    at = {"pressure": 1e6, "velocity": 0.1, "direction": 1.2}
+    found = asperity.friction(spectrum, rubber, **at, rtol=rtol)
+    mu, lateral = by_definition(spectrum, rubber, **at)
+    assert abs(found.mu - mu) <= found.error_estimate
+    assert abs(found.lateral - lateral) <= found.error_estimate
 
 
 def test_the_area_is_that_of_the_friction():
