@@ -61,12 +61,13 @@ class PerssonTheory final : public Theory {
   [[nodiscard]] double rise_of(std::size_t cell) const { return f_edge_[cell + 1] - f_edge_[cell]; }
   [[nodiscard]] double upper_of(std::size_t piece) const {
     const double* const f = &f_[static_cast<Index>(2 * piece)];
-    const Upper& by = upper_[piece];
+    const Upper by = by_upper(piece);
     return by.rise * rise_of(piece) - by.first * f[0] - by.second * f[1];
   }
   [[nodiscard]] VectorXd shares_of(const Eigen::Ref<const VectorXd>& g) const;
   void multiply_by_s(VectorXd& shares) const;
 
+  std::size_t pieces_ = grid_.pieces() ? grid_.cells().size() : 0;
   Form form_;
   std::optional<SFunction> factor_;
   ContactIntegral contact_;
@@ -75,7 +76,7 @@ class PerssonTheory final : public Theory {
   struct Upper {
     double rise, first, second;
   };
-  std::vector<Upper> upper_;
+  [[nodiscard]] Upper by_upper(std::size_t piece) const;
   std::vector<double> edge_, f_edge_;    // G and F at the ends of cells, at the load
   VectorXd g_at_load_, f_;               // at the nodes, F less that where their cell begins
   MatrixXd columns_, end_columns_;       // of panels: friction, and that times ln q, by F of nodes and by its rise
@@ -108,13 +109,12 @@ void PerssonTheory::multiply_by_s(VectorXd& shares) const {
 void PerssonTheory::take(const NodeModulus& modulus) {
   Theory::take(modulus);
   columns_are_of_modulus_ = false;
-  upper_.clear();
-  for (std::size_t c = 0; grid_.pieces() && c < grid_.cells().size(); ++c) {
-    const auto i = static_cast<Index>(2 * c);
-    const double apart = g_[i + 1] - g_[i], by = apart > 0 ? 1 / apart : 0;
-    upper_.push_back(
-        {(g_edge_[c + 1] - g_[i]) * by, grid_.weight()[i] * i2_[i] * by, grid_.weight()[i + 1] * i2_[i + 1] * by});
-  }
+}
+
+PerssonTheory::Upper PerssonTheory::by_upper(std::size_t piece) const {
+  const auto i = static_cast<Index>(2 * piece);
+  const double apart = g_[i + 1] - g_[i], by = apart > 0 ? 1 / apart : 0;
+  return {(g_edge_[piece + 1] - g_[i]) * by, grid_.weight()[i] * i2_[i] * by, grid_.weight()[i + 1] * i2_[i + 1] * by};
 }
 
 const VectorXd& PerssonTheory::stress() {
@@ -125,7 +125,7 @@ const VectorXd& PerssonTheory::stress() {
     return stress_;
   }
   stress_.resize(g_.size());
-  for (std::size_t c = 0; c < upper_.size(); ++c) {
+  for (std::size_t c = 0; c < pieces_; ++c) {
     const double apart = edge_[c + 1] - edge_[c];
     stress_.segment<2>(static_cast<Index>(2 * c)).setConstant(apart > 0 ? (f_edge_[c + 1] - f_edge_[c]) / apart : 0);
   }
@@ -150,24 +150,22 @@ void PerssonTheory::integrate_to(double scale) {
   f_.resize(g_.size());
   integral_of(g_at_load_.data(), f_.size(), f_.data());
   const auto& cells = grid_.cells();
-  if (grid_.pieces())
-    for (std::size_t c = 0; c < upper_.size(); ++c) f_.segment<2>(static_cast<Index>(2 * c)).array() -= f_edge_[c];
-  else
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      f_.segment(static_cast<Index>(cells[c].first), static_cast<Index>(cells[c].count)).array() -= f_edge_[c];
+  for (std::size_t c = 0; c < pieces_; ++c) f_.segment<2>(static_cast<Index>(2 * c)).array() -= f_edge_[c];
+  for (std::size_t c = pieces_; c < cells.size(); ++c)
+    f_.segment(static_cast<Index>(cells[c].first), static_cast<Index>(cells[c].count)).array() -= f_edge_[c];
 }
 
 const VectorXd& PerssonTheory::part() {
   if (part_is_of_load_) return part_;
   part_is_of_load_ = true;
   measure_.resize(f_.size());
-  for (std::size_t c = 0; c < upper_.size(); ++c) {
+  for (std::size_t c = 0; c < pieces_; ++c) {
     const auto i = static_cast<Index>(2 * c);
     measure_[i + 1] = upper_of(c);
     measure_[i] = rise_of(c) - measure_[i + 1];
   }
   const auto& cells = grid_.cells();
-  for (std::size_t c = 0; !grid_.pieces() && c < cells.size(); ++c) {
+  for (std::size_t c = pieces_; c < cells.size(); ++c) {
     const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
     auto measure = measure_.segment(first, count);
     measure = -slopes_of(*cells[c].rule).transpose().lazyProduct(f_.segment(first, count));
@@ -217,7 +215,7 @@ const ContactSums& PerssonTheory::solve(double scale, double /*rtol*/, double /*
   integrate_to(scale);
   const auto& cells = grid_.cells();
   cell_part_.resize(std::ssize(cells));
-  for (std::size_t c = 0; c < upper_.size(); ++c) {
+  for (std::size_t c = 0; c < pieces_; ++c) {
     const auto i = static_cast<Index>(2 * c);
     const double upper = upper_of(c);
     cell_part_[static_cast<Index>(c)] = ratio_[i] * (rise_of(c) - upper) + ratio_[i + 1] * upper;
@@ -290,7 +288,7 @@ void PerssonTheory::differentiate(const ModulusSlopes& along, ContactSlopes& res
               at_lower * (p_s(edge_[c]) * slopes.edge.row(edge));
       part = ratio_.segment(first, count).asDiagonal() * part;
     } else {
-      const auto& [by_rise, by_first, by_second] = upper_[c];
+      const auto [by_rise, by_first, by_second] = by_upper(c);
       const double rise = rise_of(c), apart = g_at_load_[first + 1] - g_at_load_[first];
       const RowVectorXd from_slope = p_s(edge_[c]) * slopes.edge.row(edge),
                         rise_slope = p_s(edge_[c + 1]) * slopes.edge.row(edge + 1) - from_slope;
@@ -337,7 +335,7 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
       by_edge[edge + 1] += at_end * at_upper.dot(by_measure);
       by_edge[edge] -= before * at_lower.dot(by_measure);
     } else {
-      const auto& [by_rise, by_first, by_second] = upper_[c];
+      const auto [by_rise, by_first, by_second] = by_upper(c);
       const double rise = rise_of(c), apart = g_at_load_[first + 1] - g_at_load_[first];
       const double by_lower = number.by_part[first] * ratio_[first],
                    by_upper = number.by_part[first + 1] * ratio_[first + 1] - by_lower,
