@@ -151,8 +151,13 @@ bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
   const double *of[together], *outside[together];
   const Cell* cell[together];
   double share[together], u[together], beyond[lanes * together];
-  std::vector<double> value(columns * together);
-  std::vector<double*> to(columns);
+  constexpr std::size_t few = 2 * lanes;  // for which there is room without asking for it
+  double few_values[few * together];
+  double* few_addresses[few];
+  std::vector<double> many_values(columns > few ? columns * together : 0);
+  std::vector<double*> many_addresses(columns > few ? columns : 0);
+  double* const value = columns > few ? many_values.data() : few_values;
+  double** const to = columns > few ? many_addresses.data() : few_addresses;
   std::size_t c = 0;
   bool any_outside = false;
   for (std::size_t from = 0; from < n; from += together) {
@@ -176,7 +181,7 @@ bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
       to[2 * k] = row(k, i1, loss) + from;
       to[2 * k + 1] = row(k, i2, square) + from;
     }
-    loop(of, u, width_, columns / lanes, to.data());
+    loop(of, u, width_, columns / lanes, to);
     for (std::size_t k = 0; here < together && k <= count; ++k) {
       std::copy_n(to[2 * k], here, row(k, i1, loss) + from);
       std::copy_n(to[2 * k + 1], here, row(k, i2, square) + from);
@@ -201,10 +206,14 @@ std::size_t HarmonicTable::cell_of(double w) const {
 }
 
 const HarmonicTable& HarmonicTables::of(const AngularTable& table, const ModulusPiece& tail, std::size_t count) const {
+  const auto serves = [count](const HarmonicTable* made) { return made && made->count() >= count; };
+  if (const HarmonicTable* const last = last_.load(std::memory_order_acquire); serves(last)) return *last;
   const std::scoped_lock lock(making_);
-  if (made_.empty() || made_.back()->count() < count)
+  if (!serves(last_.load(std::memory_order_relaxed))) {
     made_.push_back(std::make_unique<const HarmonicTable>(table, tail, std::bit_ceil(count)));
-  return *made_.back();
+    last_.store(made_.back().get(), std::memory_order_release);
+  }
+  return *last_.load(std::memory_order_relaxed);
 }
 
 }  // namespace asperity

@@ -1,6 +1,7 @@
 // L_k and K_k of a modulus known piece by piece, from I1 and I2.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <mutex>
@@ -49,6 +50,7 @@ class HarmonicTables {
 
  private:
   mutable std::mutex making_;
+  mutable std::atomic<const HarmonicTable*> last_{nullptr};
   mutable std::vector<std::unique_ptr<const HarmonicTable>> made_;
 };
 
