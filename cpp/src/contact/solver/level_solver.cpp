@@ -183,7 +183,7 @@ double LevelSolver::outside_share(const Level& level, const ContactSums& sums) c
       sum += level.grid->weight()[i] * stress[i] * level.i1_outside[static_cast<std::size_t>(i)];
     return sum / sums.friction;
   }
-  if (level.i1_outside.empty() && !known_) return 0;
+  if (level.i1_outside.empty() && (level.grid->pieces() || !known_)) return 0;
   const VectorXd& part = level.theory->part();
   for (std::size_t i = 0; i < level.grid->size(); ++i) {
     const bool held = i >= level.grid->band_size() && known_ && level.frequency[i] >= known_->highest;
