@@ -16,17 +16,16 @@ constexpr std::size_t test_z = 2;     // random z at a random x between every tw
 
 }  // namespace
 
-MapPatches::MapPatches(const MapFrame& frame, double rtol, unsigned threads,
-                       const std::function<void(double)>& progress)
-    : frame_(frame), tolerance_(std::fmax(step_share * rtol, 2 * frame.solver_rtol())), threads_(threads) {
-  if (frame.slant()) {
-    for (std::size_t k = 0; k + 1 < frame.cuts().size(); ++k) add_strip({frame.cuts()[k], frame.cuts()[k + 1]});
-  } else if (frame.load_shift().any()) {  // loads of the box, and of cells that stand out of it
-    const auto [smallest, largest] = frame.load_shift().range();
-    const auto [lowest, highest] = frame.offsets();
+MapPatches::MapPatches(MapFrame frame, double rtol, unsigned threads, const std::function<void(double)>& progress)
+    : frame_(std::move(frame)), tolerance_(std::fmax(step_share * rtol, 2 * frame_.solver_rtol())), threads_(threads) {
+  if (frame_.slant()) {
+    for (std::size_t k = 0; k + 1 < frame_.cuts().size(); ++k) add_strip({frame_.cuts()[k], frame_.cuts()[k + 1]});
+  } else if (frame_.load_shift().any()) {  // loads of the box, and of cells that stand out of it
+    const auto [smallest, largest] = frame_.load_shift().range();
+    const auto [lowest, highest] = frame_.offsets();
     add_strip({smallest + lowest, largest + highest});
   } else {
-    add_strip({frame.cuts().front(), frame.cuts().back()});
+    add_strip({frame_.cuts().front(), frame_.cuts().back()});
   }
   make(in_box(), progress);
 }

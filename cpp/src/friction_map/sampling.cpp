@@ -120,9 +120,15 @@ std::vector<MapSample> MapFrame::sample_at(std::span<const MapPlace> places, std
 std::vector<MapSample> MapFrame::sample_points(std::span<const MapPlace> points, std::span<const double> temperature,
                                                unsigned threads) const {
   if (points.empty()) return {};
+  const std::vector<double> velocity = velocities_of(points);
   std::vector<double> pressure;
   for (const MapPlace& point : points) pressure.push_back(std::exp(point.z));
-  return with_heat(pressure, velocities_of(points), temperature, threads);
+  const FlashFriction f = solved(rtol_, [&] {
+    return friction(spectrum_, rubber_, *heat_->shift, *heat_->heating, model_, heat_->adhesion, pressure, velocity,
+                    temperature, Branch::coldest, false, threads);
+  });
+  refuse_folds(f);
+  return samples_of(f.hot, f.parts_error);
 }
 
 void refuse_folds(const FlashFriction& f) {
@@ -133,16 +139,6 @@ void refuse_folds(const FlashFriction& f) {
                      argument("velocity") + " = " + value(f.cold.velocity[i], 6) + " and " + argument("pressure") +
                      " = " + value(f.cold.pressure[i], 6) + " the heat has " + std::to_string(*fold) +
                      " steady states, between which mu jumps: the map must leave out where it does");
-}
-
-std::vector<MapSample> MapFrame::with_heat(std::span<const double> pressure, std::span<const double> velocity,
-                                           std::span<const double> temperature, unsigned threads) const {
-  const FlashFriction f = solved(rtol_, [&] {
-    return friction(spectrum_, rubber_, *heat_->shift, *heat_->heating, model_, heat_->adhesion, pressure, velocity,
-                    temperature, Branch::coldest, false, threads);
-  });
-  refuse_folds(f);
-  return samples_of(f.hot, f.parts_error);
 }
 
 /// Without errors of the parts that of mu counts, of which mu_H may be a small part.

@@ -226,8 +226,6 @@ class MapFrame {
                                               std::span<const MapPlace> places, unsigned threads) const;
   [[nodiscard]] std::vector<double> velocities_of(std::span<const MapPlace> places) const;
   [[nodiscard]] std::vector<MapSample> samples_of(const Friction& friction, std::span<const double> parts_error) const;
-  [[nodiscard]] std::vector<MapSample> with_heat(std::span<const double> pressure, std::span<const double> velocity,
-                                                 std::span<const double> temperature, unsigned threads) const;
   void make_log_modulus_offset();
   void cut_bands();
 

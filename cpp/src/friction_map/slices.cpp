@@ -23,8 +23,8 @@ constexpr std::size_t tested = 100;  // random points of an interval, and places
 MapSlices::MapSlices(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress)
     : frame_(frame), rtol_(rtol), threads_(threads), progress_(progress), range_(frame.heights()) {
   if (range_[0] == range_[1]) {
-    Interval& only = intervals_.emplace_back(Interval{range_[0], range_[1], 0, {}, {}});
-    only.patches.push_back(std::make_unique<MapPatches>(frame, rtol, threads, progress));
+    intervals_.push_back({range_[0], range_[1]});
+    intervals_[0].patches.emplace_back(frame, rtol, threads, progress);
     nodes_ = checked_ = {range_[0]};
     return;
   }
@@ -73,7 +73,7 @@ void MapSlices::add(double lower, double upper, int depth) {
     add((lower + upper) / 2, upper, depth + 1);
   };
   if (depth < deepest && !is_smooth(lower, upper)) return halve();
-  Interval interval{lower, upper, 0, {}, {}};
+  Interval interval{lower, upper};
   make(interval);
   interval.error = 2 * test(interval);
   if (interval.error > 2 * step_share * rtol_ && depth < deepest) return halve();
@@ -88,12 +88,11 @@ void MapSlices::tell(double height) {
 }
 
 void MapSlices::make(Interval& interval) {
+  interval.patches.reserve(n);
   for (const double t : chebyshev_points<n>().point) {
     const double middle = (interval.lower + interval.upper) / 2, half = (interval.upper - interval.lower) / 2;
     const double height = std::clamp(middle + half * t, interval.lower, interval.upper);
-    interval.frames.push_back(std::make_unique<MapFrame>(frame_.at_height(height)));
-    interval.patches.push_back(
-        std::make_unique<MapPatches>(*interval.frames.back(), rtol_, threads_, std::function<void(double)>{}));
+    interval.patches.emplace_back(frame_.at_height(height), rtol_, threads_, std::function<void(double)>{});
     const double made = static_cast<double>(interval.patches.size()) / n;
     tell(interval.lower + made * (interval.upper - interval.lower));
   }
@@ -145,18 +144,18 @@ MapSample MapSlices::combined(const Combination& sum, std::span<const MapSample>
 }
 
 MapSample MapSlices::at(const MapPlace& place, double height) {
-  if (planes() == 1 && range_[0] == range_[1]) return intervals_[0].patches[0]->at(place);
+  if (planes() == 1 && range_[0] == range_[1]) return intervals_[0].patches[0].at(place);
   const Combination sum = combination(height);
   std::array<MapSample, n> samples;
-  for (std::size_t i = 0; i < n; ++i) samples[i] = intervals_[sum.interval].patches[i]->at(place);
+  for (std::size_t i = 0; i < n; ++i) samples[i] = intervals_[sum.interval].patches[i].at(place);
   return combined(sum, samples);
 }
 
 std::vector<MapSample> MapSlices::column(const MapPlace& place) {
   if (planes() == 1) return {at(place, range_[0])};
   std::vector<MapSample> samples, result;
-  for (const Interval& interval : intervals_)
-    for (const auto& patches : interval.patches) samples.push_back(patches->at(place));
+  for (Interval& interval : intervals_)
+    for (MapPatches& patches : interval.patches) samples.push_back(patches.at(place));
   result.reserve(at_checked_.size());
   for (const Combination& sum : at_checked_)
     result.push_back(combined(sum, std::span(samples).subspan(sum.interval * n, n)));
@@ -164,10 +163,10 @@ std::vector<MapSample> MapSlices::column(const MapPlace& place) {
 }
 
 std::vector<MapSlopes> MapSlices::slopes(std::uint32_t band, const MapPlace& place) {
-  if (planes() == 1) return {intervals_[0].patches[0]->slopes(band, place)};
+  if (planes() == 1) return {intervals_[0].patches[0].slopes(band, place)};
   std::vector<MapSlopes> samples, result;
-  for (const Interval& interval : intervals_)
-    for (const auto& patches : interval.patches) samples.push_back(patches->slopes(band, place));
+  for (Interval& interval : intervals_)
+    for (MapPatches& patches : interval.patches) samples.push_back(patches.slopes(band, place));
   for (const Combination& sum : at_nodes_)
     for (const Weights* const weights : {&sum.value, &sum.slope}) {
       MapSlopes& to = result.emplace_back(MapSlopes{});

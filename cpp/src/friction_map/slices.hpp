@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -35,7 +34,7 @@ class MapPatches {
   static constexpr std::size_t n = 12;  // points of a polynomial in one variable
 
   /// Makes the patches that the box touches; `progress` hears of the share that is done.
-  MapPatches(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress);
+  MapPatches(MapFrame frame, double rtol, unsigned threads, const std::function<void(double)>& progress);
 
   /// The error is twice the largest that was found on the patch, and the solver's. A patch outside of the box is made
   /// when it is asked for.
@@ -73,7 +72,7 @@ class MapPatches {
   }
   [[nodiscard]] static std::array<double, 2> value(const Patch& patch, const MapPlace& place);
 
-  const MapFrame& frame_;
+  MapFrame frame_;
   double tolerance_;
   unsigned threads_;
   std::vector<Strip> strips_;
@@ -108,8 +107,7 @@ class MapSlices {
   using Weights = std::array<double, n>;
   struct Interval {
     double lower, upper, error = 0;
-    std::vector<std::unique_ptr<MapFrame>> frames;
-    std::vector<std::unique_ptr<MapPatches>> patches;
+    std::vector<MapPatches> patches = {};
   };
   struct Combination {  // of an interval's patches
     std::size_t interval;
