@@ -27,7 +27,7 @@ AngularSlopes::AngularSlopes(const Rubber& rubber, const ContactModel& model, st
 
 /// Nodes beside each other that ask for about as many are one block.
 void AngularSlopes::take_harmonics(const std::vector<double>& shares, double least, std::size_t most) {
-  constexpr std::size_t step = 16, longest = 128, apart = 4;  // nodes, and harmonics
+  constexpr std::size_t step = 16, apart = 4;  // nodes, and harmonics
   const auto needed = [&](std::size_t first, std::size_t size) {
     double rest = 0;
     std::size_t m = rings_.count;
@@ -46,7 +46,7 @@ void AngularSlopes::take_harmonics(const std::vector<double>& shares, double lea
   const auto add = [&](std::size_t from, std::size_t end) {
     for (std::size_t first = from, next = 0; first < end; first = next) {
       std::size_t fewest = SIZE_MAX, own = 0;
-      for (next = first; next < end && next < first + longest; next += step) {
+      for (next = first; next < end; next += step) {
         const std::size_t here = needed(next, std::min(step, end - next));
         if (next > first && std::max(own, here) > std::min(fewest, here) + apart) break;
         own = std::max(own, here);
