@@ -56,9 +56,8 @@ template <class GreenwoodWilliamsonKind>
 double macro_wavenumber(const GreenwoodWilliamsonKind& s, const Spectrum& spectrum) {
   if (s.q0) return *s.q0;
   const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
-  const std::optional<double> law_from =
-      table ? table->surface().law_from : std::get<SelfAffineSpectrum>(spectrum).rolloff;
-  return law_from.value_or(band(spectrum)[0]);
+  if (!table) return std::get<SelfAffineSpectrum>(spectrum).rolloff.value_or(band(spectrum)[0]);
+  return table->surface().law ? table->surface().law->from : band(spectrum)[0];
 }
 
 /// E* of the macro-asperities.

@@ -33,7 +33,7 @@ bool lacks_q0(const Correction& correction) {
 
 bool is_measured(const Spectrum& spectrum) {
   const auto* const table = std::get_if<TabulatedSpectrum>(&spectrum);
-  return table && !table->surface().law_from;
+  return table && !table->surface().law;
 }
 
 /// Wavenumbers of a measured spectrum that are flagged for the window (up to the first) or for Nyquist (from the second

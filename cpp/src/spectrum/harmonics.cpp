@@ -202,7 +202,11 @@ TabulatedSpectrum table_of(const SelfAffineSpectrum& s) {
       harmonics.sine.push_back(share * std::sin(angle));
     }
   TabulatedSpectrum result(std::move(q), std::move(c), {}, std::move(harmonics));
-  result.surface().law_from = s.rolloff.value_or(s.q0);
+  result.surface().law = {s.rolloff.value_or(s.q0), {}};
+  if (bends_by_direction(s)) {
+    const double root = std::sqrt(s.axis_ratio);
+    result.surface().law->bends = {*s.rolloff / root, *s.rolloff * root};
+  }
   return result;
 }
 

@@ -20,8 +20,13 @@ struct RingMeans {
 
 class TableSurface {
  public:
-  /// Of rows that a law was written out in: its roll-off, or where it begins [1/m].
-  std::optional<double> law_from;
+  /// Of rows that a law was written out in: its roll-off, or where it begins, and where directions of it begin to fall
+  /// and all do, at which slopes over its numbers have roots [1/m].
+  struct Law {
+    double from;
+    std::vector<double> bends;
+  };
+  std::optional<Law> law;
   /// All of them take the table that this is kept with.
   std::span<const Segment> segments(const TabulatedSpectrum& table);
   double rms_slope(const TabulatedSpectrum& table);

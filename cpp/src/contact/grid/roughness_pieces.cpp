@@ -86,6 +86,8 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
   std::vector<double> edges{0, end};
   std::vector<double> also = window_.ends();
   also.insert(also.end(), stops.begin(), stops.end());
+  if (directions && directions->surface().law)
+    also.insert(also.end(), directions->surface().law->bends.begin(), directions->surface().law->bends.end());
   for (const double q : also)
     if (q > foot_ && q < surface.back().b) edges.push_back(std::log1p((q - foot_) / foot_));
   std::ranges::sort(edges);
