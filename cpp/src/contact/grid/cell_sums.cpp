@@ -32,10 +32,15 @@ void for_each_cell(const ContactGrid& grid, auto&& visit) {
 
 }  // namespace
 
-VectorXd sums_of_cells(const ContactGrid& grid, const VectorXd& part) {
-  VectorXd sums(std::ssize(grid.cells()) + std::ssize(grid.beyond().panel_nodes));
+void sum_cells(const ContactGrid& grid, const VectorXd& part, VectorXd& sums) {
+  sums.resize(std::ssize(grid.cells()) + std::ssize(grid.beyond().panel_nodes));
   Index at = 0;
   for_each_cell(grid, [&](Index first, Index count, double) { sums[at++] = part.segment(first, count).sum(); });
+}
+
+VectorXd sums_of_cells(const ContactGrid& grid, const VectorXd& part) {
+  VectorXd sums;
+  sum_cells(grid, part, sums);
   return sums;
 }
 

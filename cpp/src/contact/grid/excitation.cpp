@@ -136,7 +136,7 @@ void soften(std::span<const ModulusFactors> factors, std::span<const double> los
 bool Excitation::operator()(std::span<const double> w, std::span<const ModulusFactors> factors, std::span<double> i1,
                             std::span<double> i2, std::span<double> i1_outside, const Directed& directed) const {
   const std::size_t n = w.size(), rows = directed.rings ? directed.harmonics : 0;
-  const auto harmonics = std::make_unique_for_overwrite<double[]>(2 * rows * n);
+  const auto harmonics = rows > 0 ? std::make_unique_for_overwrite<double[]>(2 * rows * n) : nullptr;
   const std::span loss(harmonics.get(), rows * n), square(loss.data() + rows * n, rows * n);
   const bool any_outside = angular_integrals(rubber_, w, i1, i2, i1_outside, loss, square);
   std::vector<double> of_loss;

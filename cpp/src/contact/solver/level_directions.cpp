@@ -85,9 +85,11 @@ double LevelSolver::scatter(const Level& level, const ContactSums& sums) const {
 }
 
 double LevelSolver::across(Level& level, const ContactSums& sums) const {
-  level.sideways.resize(0);
-  level.cell_across.resize(0);
-  if (!rings_of_ || !(sums.friction > 0)) return 0;
+  if (!rings_of_ || !(sums.friction > 0)) {
+    level.sideways.resize(0);
+    level.cell_across.resize(0);
+    return 0;
+  }
   const ContactGrid& grid = *level.grid;
   const bool by_stress = window_ && grid.pieces();
   const auto n = static_cast<Index>(by_stress ? grid.band_size() : grid.size());
@@ -98,7 +100,7 @@ double LevelSolver::across(Level& level, const ContactSums& sums) const {
     level.per_loss =
         level.theory->part().head(n).array() / (scale_ * Eigen::ArrayXd::Map(level.i1.data(), n).max(least));
   level.sideways = level.per_loss.cwiseProduct(VectorXd::Map(level.across.data(), n));
-  level.cell_across = sums_of_cells(grid, level.sideways);
+  sum_cells(grid, level.sideways, level.cell_across);
   const double edges = by_stress ? sums.edges * grid.beyond().end->window * edges_.across : 0;
   return edges + level.cell_across.sum();
 }

@@ -128,7 +128,7 @@ const ContactSums& PartialContactTheory::solve(double scale, double rtol, double
   part_.setZero(i2_.size());
   part_.head(n) = scale * weight_.cwiseProduct(ratio_.head(n)).cwiseProduct(stress_);
   part_.segment(n, count) = scale * edges_ * end_.window * in_tail_.cwiseProduct(ratio_.segment(n, count));
-  cell_part_ = sums_of_cells(grid_, part_);
+  sum_cells(grid_, part_, cell_part_);
   const double band = part_.head(n).sum();
   mean_place_ = band > 0 ? part_.head(n).dot(place_) / band : 0;
   return sums_;

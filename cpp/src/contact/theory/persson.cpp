@@ -64,8 +64,7 @@ class PerssonTheory final : public Theory {
     const Upper by = by_upper(piece);
     return by.rise * rise_of(piece) - by.first * f[0] - by.second * f[1];
   }
-  [[nodiscard]] VectorXd shares_of(const Eigen::Ref<const VectorXd>& g) const;
-  void multiply_by_s(VectorXd& shares) const;
+  void make_stress(Eigen::Ref<VectorXd> g) const;
 
   std::size_t pieces_ = grid_.pieces() ? grid_.cells().size() : 0;
   Form form_;
@@ -80,7 +79,7 @@ class PerssonTheory final : public Theory {
   std::vector<double> edge_, f_edge_;    // G and F at the ends of cells, at the load
   VectorXd g_at_load_, f_;               // at the nodes, F less that where their cell begins
   MatrixXd columns_, end_columns_;       // of panels: friction, and that times ln q, by F of nodes and by its rise
-  VectorXd measure_;                     // dF
+  VectorXd moment_, measure_;            // R ln q, and dF
   bool columns_are_of_modulus_ = false;  // and of the load:
   bool part_is_of_load_ = false, stress_is_of_load_ = false;
 };
@@ -92,18 +91,15 @@ void PerssonTheory::integral_of(const double* g, Index n, double* f) const {
     if (g[i] < contact_.whole) f[i] = g[i];
 }
 
-VectorXd PerssonTheory::shares_of(const Eigen::Ref<const VectorXd>& g) const {
-  VectorXd result = g.cwiseMax(0);  // an interpolated G may be below 0 at the first nodes
+/// From values of G to P S, in their place.
+void PerssonTheory::make_stress(Eigen::Ref<VectorXd> g) const {
+  g = g.cwiseMax(0);  // an interpolated G may be below 0 at the first nodes
   if (form_ == Form::exact)
-    contact_shares(result.data(), static_cast<std::size_t>(result.size()), result.data());
+    contact_shares(g.data(), static_cast<std::size_t>(g.size()), g.data());
   else
-    for (double& one : result) one = p_of(one, form_);
-  return result;
-}
-
-void PerssonTheory::multiply_by_s(VectorXd& shares) const {
+    for (double& one : g) one = p_of(one, form_);
   const double gamma = contact_.gamma;
-  if (factor_) shares.array() *= gamma + (1 - gamma) * (shares.array() * shares.array());
+  if (factor_) g.array() *= gamma + (1 - gamma) * (g.array() * g.array());
 }
 
 void PerssonTheory::take(const NodeModulus& modulus) {
@@ -134,8 +130,8 @@ const VectorXd& PerssonTheory::stress() {
 
 /// At the nodes.
 void PerssonTheory::take_stress() {
-  stress_ = shares_of(g_at_load_);
-  multiply_by_s(stress_);
+  stress_ = g_at_load_;
+  make_stress(stress_);
 }
 
 /// G and F at the nodes and at the ends of cells at a load.
@@ -188,7 +184,7 @@ void PerssonTheory::take_columns() {
   columns_are_of_modulus_ = true;
   const auto& cells = grid_.cells();
   const Index n = g_.size();
-  const VectorXd moment = ratio_.head(n).cwiseProduct(place_);
+  moment_ = ratio_.head(n).cwiseProduct(place_);
   columns_.resize(n, 2);
   end_columns_.resize(std::ssize(cells), 2);
   for (std::size_t c = 0; c < cells.size(); ++c) {
@@ -200,14 +196,14 @@ void PerssonTheory::take_columns() {
       for (Index j = 0; j < count; ++j) {
         const Some slope = Eigen::Map<const Some>(&rule.slope[j][i]);
         of_friction += ratio_[first + j] * slope;
-        of_place += moment[first + j] * slope;
+        of_place += moment_[first + j] * slope;
       }
       columns_.col(0).segment<lanes>(first + i) = of_friction;
       columns_.col(1).segment<lanes>(first + i) = of_place;
     }
     const Eigen::Map<const VectorXd> at_upper(rule.at_upper, count);
     end_columns_.row(static_cast<Index>(c)) << at_upper.dot(ratio_.segment(first, count)),
-        at_upper.dot(moment.segment(first, count));
+        at_upper.dot(moment_.segment(first, count));
   }
 }
 
@@ -258,8 +254,8 @@ double PerssonTheory::front_misfit() {
       apart = std::fmax(apart, std::fabs(ratio[i] - ratio[i - 1]));
     }
     if (gaps < 2) apart = ratio.maxCoeff() - ratio.minCoeff();
-    VectorXd stress = shares_of(g);
-    multiply_by_s(stress);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, LegendreRule::most> stress = g;
+    make_stress(stress);
     const double rule =
         (grid_.weight().segment(first, count).array() * i2_.segment(first, count).array() * stress.array()).sum();
     result += std::fabs(rise_of(c) / scale_ - rule) * apart / 2;
@@ -320,8 +316,8 @@ void PerssonTheory::gradient(const ContactNumber& number, ContactGradient& resul
   result.weight.setZero(i2_.size());
   result.window.setZero(n);
   take_stress();
-  VectorXd at_edges = shares_of(VectorXd::Map(edge_.data(), std::ssize(edge_)));
-  multiply_by_s(at_edges);
+  VectorXd at_edges = VectorXd::Map(edge_.data(), std::ssize(edge_));
+  make_stress(at_edges);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
     const auto edge = static_cast<Index>(c);
