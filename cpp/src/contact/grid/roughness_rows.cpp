@@ -32,7 +32,7 @@ RoughnessRows::RoughnessRows(std::span<const Segment> surface, bool of_table, co
   } else {
     double from = grid.foot();
     for (const ContactGrid::Cell& cell : grid.cells()) {
-      add_stretch(grid, {cell.first, cell.count, from, cell.end}, cell.origin);
+      add_stretch(grid, {cell.first, cell.count, from, cell.end}, &cell);
       from = cell.end;
     }
   }
@@ -51,17 +51,18 @@ RoughnessRows::Shares RoughnessRows::shares_at(double wavenumber, double log_q) 
   return {row, 1 - x, x};
 }
 
-void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch, double origin) {
+void RoughnessRows::add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch,
+                                const ContactGrid::Cell* panel) {
   first_.resize(stretch.first + 1, row_.size());
   const std::size_t n = stretch.count;
   const auto place = [&](double q, double log_q) {
-    return grid.pieces() ? log_q : std::sqrt(std::fmax(0, grid.distance(q) - origin));
+    if (!panel) return log_q;
+    const double t = std::sqrt(std::fmax(0, grid.distance(q) - panel->origin));
+    return 2 * (t - panel->lower) / (panel->upper - panel->lower) - 1;
   };
   std::vector<double> node(n), scale(n, 1.0);
-  for (std::size_t j = 0; j < n; ++j) {
-    const double q = grid.wavenumber()[stretch.first + j];
-    node[j] = place(q, std::log(q));
-  }
+  for (std::size_t j = 0; j < n; ++j)  // on short panels beside the front a double has one q for several nodes
+    node[j] = panel ? panel->rule->node[j] : std::log(grid.wavenumber()[stretch.first + j]);
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t k = 0; k < n; ++k)
       if (k != j) scale[j] /= node[j] - node[k];

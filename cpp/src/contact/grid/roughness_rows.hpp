@@ -31,7 +31,8 @@ class RoughnessRows {
   };
   [[nodiscard]] Shares shares_at(double wavenumber, double log_q) const;
   /// `origin` is that of a panel's cell.
-  void add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch, double origin = 0);
+  void add_stretch(const ContactGrid& grid, const ContactGrid::Stretch& stretch,
+                   const ContactGrid::Cell* panel = nullptr);
 
   std::span<const Segment> surface_;
   bool of_table_;
