@@ -219,9 +219,10 @@ HotPoint FlashSolver::operator()(const HeatPoint& point) {
       before_.back() = {point.velocity, level - 1, found.theta};
     }
     found = polish(finer, found.theta, tangent_, levels_[level].up, levels_[level].down, tolerance);
-    double apart =
-        most_apart(sums_of_cells(map->grid(), map->contributions()), sums_of_cells(finer.grid(), finer.contributions()),
-                   common_ends(map->grid(), finer.grid()));
+    VectorXd of_coarse, of_finer;
+    sum_cells(map->grid(), map->contributions(), of_coarse);
+    sum_cells(finer.grid(), finer.contributions(), of_finer);
+    double apart = most_apart(of_coarse, of_finer, common_ends(map->grid(), finer.grid()));
     map = &finer;
     finest_ = level;
     const double mu = map->hysteresis() + map->adhesion();

@@ -38,14 +38,9 @@ void sum_cells(const ContactGrid& grid, const VectorXd& part, VectorXd& sums) {
   for_each_cell(grid, [&](Index first, Index count, double) { sums[at++] = part.segment(first, count).sum(); });
 }
 
-VectorXd sums_of_cells(const ContactGrid& grid, const VectorXd& part) {
+std::vector<PanelSum> sums_of_panels(const ContactGrid& grid, const VectorXd& part) {
   VectorXd sums;
   sum_cells(grid, part, sums);
-  return sums;
-}
-
-std::vector<PanelSum> sums_of_panels(const ContactGrid& grid, const VectorXd& part) {
-  const VectorXd sums = sums_of_cells(grid, part);
   std::vector<PanelSum> result;
   double lower = grid.foot();
   const auto add = [&](double from, double to) { result.push_back({from, to, sums[std::ssize(result)]}); };

@@ -10,7 +10,6 @@
 namespace asperity {
 
 /// Sums over the nodes of each cell, those of the edges' panels behind the others.
-Eigen::VectorXd sums_of_cells(const ContactGrid& grid, const Eigen::VectorXd& part);
 void sum_cells(const ContactGrid& grid, const Eigen::VectorXd& part, Eigen::VectorXd& sums);
 
 /// The same of panels, with their ends [1/m].
