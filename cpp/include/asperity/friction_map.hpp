@@ -128,17 +128,35 @@ namespace asperity {
 
 namespace map_detail {
 
-inline std::uint64_t bits(double x) noexcept {
-  std::uint64_t result = 0;
+template <class To, class From>
+To as(From x) noexcept {
+  static_assert(sizeof(To) == sizeof(From));
+  To result{};
   std::memcpy(&result, &x, sizeof x);
   return result;
 }
+inline std::uint64_t bits(double x) noexcept { return as<std::uint64_t>(x); }
+inline double from_bits(std::uint64_t u) noexcept { return as<double>(u); }
+inline double magnitude(double x) noexcept { return from_bits(bits(x) & 0x7fffffffffffffff); }
 
-inline double from_bits(std::uint64_t u) noexcept {
-  double result = 0;
-  std::memcpy(&result, &u, sizeof u);
-  return result;
-}
+/// Two numbers, which a vector unit takes at once where there is one.
+#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON))
+#define ASPERITY_MAP_PAIRS
+using Pair = double __attribute__((vector_size(16), may_alias));
+using PairOfBits = std::uint64_t __attribute__((vector_size(16)));
+/// From where two of them are aligned.
+inline Pair pair(const double* x) noexcept { return *static_cast<const Pair*>(static_cast<const void*>(x)); }
+inline PairOfBits bits(Pair x) noexcept { return as<PairOfBits>(x); }
+inline Pair from_bits(PairOfBits u) noexcept { return as<Pair>(u); }
+#else
+struct Pair {
+  double two[2];
+  double operator[](int i) const noexcept { return two[i]; }
+};
+inline Pair pair(const double* x) noexcept { return {{x[0], x[1]}}; }
+inline Pair operator+(Pair a, Pair b) noexcept { return {{a[0] + b[0], a[1] + b[1]}}; }
+inline Pair operator*(Pair a, double b) noexcept { return {{a[0] * b, a[1] * b}}; }
+#endif
 
 /// ln c and 1 / c for c = (i + 1/2) / 128, i from 128 to 255, and 2^(i / 128): the tables of ln and exp below.
 struct Tables {
@@ -159,22 +177,29 @@ struct Tables {
 };
 inline constexpr Tables tables;
 
-/// ln of a positive normal number, to 5e-16 of the larger of it and 1, the same digits on every host:
-/// x = 2^k m, m = c (1 + r) with c from the table, |r| < 1 / 256.
-ASPERITY_MAP_INLINE inline double ln(double x) noexcept {
-  const std::uint64_t u = bits(x);
-  const auto k = static_cast<double>(static_cast<std::int32_t>(u >> 52) - 1023);
-  const std::uint32_t i = static_cast<std::uint32_t>(u >> 45) & 127;
-  const double m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
-  const double r = m * tables.inverse[i] - 1, r2 = r * r;
-  const double tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
-  return (k * 0.693147180559945309417 + tables.ln[i]) + (r + r2 * tail);
+inline double look_up(const double* table, std::uint64_t i) noexcept { return table[i]; }
+#ifdef ASPERITY_MAP_PAIRS
+inline Pair look_up(const double* table, PairOfBits i) noexcept { return Pair{table[i[0]], table[i[1]]}; }
+#endif
+
+// 2^52, whose last bits are those of the integer that is added to it; and 1.5 * 2^52, from which the integer may have
+// either sign, and to which a number is added to be rounded to one. Bits instead of differences hold under -ffast-math.
+constexpr double whole = 4503599627370496.0, rounding = 1.5 * whole;
+constexpr std::uint64_t bits_of_whole = 0x4330000000000000;
+
+/// ln of a positive normal number, or of a pair of them, to 5e-16 of the larger of it and 1, the same digits on every
+/// host: x = 2^k m, m = c (1 + r) with c from the table, |r| < 1 / 256.
+template <class Number>
+ASPERITY_MAP_INLINE inline Number ln(Number x) noexcept {
+  const auto u = bits(x), i = (u >> 45) & 127;
+  const Number k = from_bits((u >> 52) | bits_of_whole) - (whole + 1023),
+               m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
+  const Number r = m * look_up(tables.inverse, i) - 1, r2 = r * r;
+  const Number tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
+  return (k * 0.693147180559945309417 + look_up(tables.ln, i)) + (r + r2 * tail);
 }
 
-/// e^x to 4e-16 for |x| < 700, beyond which x is held there: x = (128 n + i) ln(2) / 128 + r, |r| < ln(2) / 256.
 constexpr double steps_per_unit = 128 / 0.693147180559945309417;  // of ln(2) / 128
-// 1.5 * 2^52: a number added to it is rounded to an integer, and the low bits of the sum are this integer.
-constexpr double whole = 6755399441055744.0;
 // The first part of ln(2) / 128 has zeros enough to be multiplied exactly.
 constexpr double step_high = 0.693147180369123816490 / 128, step_low = 1.90821492927058770002e-10 / 128;
 
@@ -182,84 +207,9 @@ inline double held(double x) noexcept {
   const double above = x < -700 ? -700 : x;
   return above > 700 ? 700 : above;
 }
-
-/// The integer in the lower half.
-inline double integer(std::uint64_t u) noexcept {
-  return static_cast<double>(static_cast<std::int32_t>(static_cast<std::uint32_t>(u)));
-}
-
-inline double exp(double x) noexcept {
-  x = held(x);
-  const std::uint64_t u = bits(x * steps_per_unit + whole);
-  const double steps = integer(u), r = (x - steps * step_high) - steps * step_low, r2 = r * r;
-  const double tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
-  return (1 + (r + r2 * tail)) * from_bits(bits(tables.power[u & 127]) + ((u >> 7) << 52));  // times 2^n
-}
-
-/// Two numbers, which a vector unit takes at once where there is one.
-#if defined(__GNUC__) && (defined(__SSE2__) || defined(__ARM_NEON))
-#define ASPERITY_MAP_PAIRS
-using Pair = double __attribute__((vector_size(16), may_alias));
-using PairOfBits = std::uint64_t __attribute__((vector_size(16)));
-/// From where two of them are aligned.
-inline Pair pair(const double* x) noexcept { return *static_cast<const Pair*>(static_cast<const void*>(x)); }
-
-#if defined(__SSE2__) && defined(__has_builtin)
-#if __has_builtin(__builtin_shufflevector)
-#define ASPERITY_MAP_SHUFFLES
-#endif
-#endif
-
-// Four of them, where the processor that a program finds has AVX2. A host of MSVC's libraries lacks the function that
-// asks.
-#if defined(ASPERITY_MAP_SHUFFLES) && defined(__x86_64__) && !defined(_MSC_VER)
-#define ASPERITY_MAP_FOURS __attribute__((target("avx2")))
-using Four = double __attribute__((vector_size(32)));
-using FourOfBits = std::uint64_t __attribute__((vector_size(32)));
-struct __attribute__((packed, may_alias)) AnyFour {  // wherever they are
-  Four four;
-};
-#endif
-
-inline PairOfBits bits(Pair x) noexcept {
-  PairOfBits result{};
-  std::memcpy(&result, &x, sizeof x);
-  return result;
-}
-
-inline Pair from_bits(PairOfBits u) noexcept {
-  Pair result{};
-  std::memcpy(&result, &u, sizeof u);
-  return result;
-}
-#else
-struct Pair {
-  double two[2];
-  double operator[](int i) const noexcept { return two[i]; }
-};
-inline Pair pair(const double* x) noexcept { return {{x[0], x[1]}}; }
-inline Pair operator+(Pair a, Pair b) noexcept { return {{a[0] + b[0], a[1] + b[1]}}; }
-inline Pair operator*(Pair a, double b) noexcept { return {{a[0] * b, a[1] * b}}; }
-#endif
-
 #ifdef ASPERITY_MAP_PAIRS
-inline Pair integers(PairOfBits u) noexcept {
-#ifdef ASPERITY_MAP_SHUFFLES
-  using Halves = std::int32_t __attribute__((vector_size(16)));
-  Halves halves{};
-  std::memcpy(&halves, &u, sizeof u);
-#ifdef __clang__
-  return __builtin_convertvector(__builtin_shufflevector(halves, halves, 0, 2), Pair);
-#else
-  return __builtin_ia32_cvtdq2pd(__builtin_shufflevector(halves, halves, 0, 2, 0, 2));
-#endif
-#else
-  return Pair{integer(u[0]), integer(u[1])};
-#endif
-}
-
 inline Pair held(Pair x) noexcept {
-#if defined(__SSE2__)
+#ifdef __SSE2__
   return __builtin_ia32_minpd(Pair{700, 700}, __builtin_ia32_maxpd(Pair{-700, -700}, x));
 #else
   return Pair{held(x[0]), held(x[1])};
@@ -267,58 +217,20 @@ inline Pair held(Pair x) noexcept {
 }
 #endif
 
-/// ln of both, with the digits of `ln`.
-inline Pair ln(Pair x) noexcept {
-#ifdef ASPERITY_MAP_PAIRS
-  const PairOfBits u = bits(x);
-  const std::size_t i = (u[0] >> 45) & 127, j = (u[1] >> 45) & 127;
-  const Pair k = integers((u >> 52) - 1023);
-  const Pair m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
-  const Pair inverse{tables.inverse[i], tables.inverse[j]}, ln_c{tables.ln[i], tables.ln[j]};
-  const Pair r = m * inverse - 1, r2 = r * r;
-  const Pair tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
-  return (k * 0.693147180559945309417 + ln_c) + (r + r2 * tail);
-#else
-  return {{ln(x[0]), ln(x[1])}};
-#endif
-}
-
-/// e^x of both, with the digits of `exp`.
-ASPERITY_MAP_INLINE inline Pair exp(Pair x) noexcept {
-#ifdef ASPERITY_MAP_PAIRS
+/// e^x, of both of a pair, to 4e-16 for |x| < 700, beyond which x is held there: x = (128 n + i) ln(2) / 128 + r,
+/// |r| < ln(2) / 256.
+template <class Number>
+ASPERITY_MAP_INLINE inline Number exp(Number x) noexcept {
   x = held(x);
-  const PairOfBits u = bits(x * steps_per_unit + whole);
-  const Pair steps = integers(u);
-  const Pair power{tables.power[u[0] & 127], tables.power[u[1] & 127]};
-  const Pair r = (x - steps * step_high) - steps * step_low, r2 = r * r;
-  const Pair tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
-  return (1 + (r + r2 * tail)) * from_bits(bits(power) + ((u >> 7) << 52));
-#else
-  return {{exp(x[0]), exp(x[1])}};
-#endif
+  const auto u = bits(x * steps_per_unit + rounding);
+  const Number steps = from_bits(u | bits_of_whole) - rounding, r = (x - steps * step_high) - steps * step_low,
+               r2 = r * r;
+  const Number tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
+  return (1 + (r + r2 * tail)) * from_bits(bits(look_up(tables.power, u & 127)) + ((u >> 7) << 52));  // times 2^n
 }
-
-#ifdef ASPERITY_MAP_FOURS
-/// The same of four numbers.
-ASPERITY_MAP_FOURS ASPERITY_MAP_INLINE inline Four exp(Four x) noexcept {
-  using Halves = std::int32_t __attribute__((vector_size(32)));
-  const Four most{700, 700, 700, 700};
-  x = __builtin_ia32_minpd256(most, __builtin_ia32_maxpd256(-most, x));
-  const Four rounded = x * steps_per_unit + whole;
-  FourOfBits u{};
-  Halves halves{};
-  std::memcpy(&u, &rounded, sizeof u);
-  std::memcpy(&halves, &rounded, sizeof halves);
-  const Four steps = __builtin_convertvector(__builtin_shufflevector(halves, halves, 0, 2, 4, 6), Four);
-  const Four r = (x - steps * step_high) - steps * step_low, r2 = r * r;
-  const Four tail = (1.0 / 2 + 1.0 / 6 * r) + r2 * (1.0 / 24 + 1.0 / 120 * r);
-  FourOfBits power{};
-  for (int i = 0; i < 4; ++i) power[i] = bits(tables.power[u[i] & 127]);
-  power += (u >> 7) << 52;
-  Four factor{};
-  std::memcpy(&factor, &power, sizeof factor);
-  return (1 + (r + r2 * tail)) * factor;
-}
+#ifndef ASPERITY_MAP_PAIRS
+inline Pair ln(Pair x) noexcept { return {{ln(x[0]), ln(x[1])}}; }
+inline Pair exp(Pair x) noexcept { return {{exp(x[0]), exp(x[1])}}; }
 #endif
 
 inline bool is_nan(double x) noexcept { return (bits(x) & 0x7fffffffffffffff) > 0x7ff0000000000000; }
@@ -399,25 +311,24 @@ class FrictionMap {
   /// mu [-] at a pressure [Pa] and a velocity [m/s] of either sign.
   [[nodiscard]] double mu(double pressure, double velocity, Outside outside = Outside::nan,
                           const MapTemperature& temperature = {}) const noexcept {
-    const double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
-    const double shifted = speed * temperature.a_T;
-    if (is_inside(pressure, shifted) && is_usual(temperature)) {  // most often
-      if (is_slanted_) return warm_mu<Axis::slanted>(pressure, speed, temperature);
-      if (steps_ > 0) return warm_mu<Axis::temperature>(pressure, speed, temperature);
-      if (info_.heat) return warm_mu<Axis::none>(pressure, speed, temperature);
-      const double x = map_detail::ln(shifted), ln_p = map_detail::ln(pressure);
-      const double ln_v = takes_shifted(temperature) ? x : map_detail::ln(speed);
-      double slope = 0;
-      const double z = ln_p - log_modulus_offset(x, slope);
-      double dx = 0, dz = 0;
-      const double* const cell = cell_at(x, z, dx, dz);
-      return mu_of(bicubic(cell, dx, dz), log_adhesion(ln_p, ln_v));
-    }
-    return settled_mu(pressure, velocity, outside, temperature);
+    using map_detail::Pair;
+    const double speed = map_detail::magnitude(velocity), shifted = speed * temperature.a_T;
+    if (!is_inside(pressure, shifted) || !is_usual(temperature))
+      return settled_mu(pressure, velocity, outside, temperature);
+    const Third third = third_at(temperature.background);
+    const double x = map_detail::ln(shifted), ln_p = map_detail::ln(pressure);
+    const double adhesion = log_adhesion(ln_p, takes_shifted(temperature) ? x : map_detail::ln(speed));
+    if (!remembers(temperature)) return mu_of(functions(place(x, ln_p, third)), adhesion);
+    // what waits for the memory longest comes first: the processor has the hot map's polynomials to sum meanwhile
+    const double length = log_sliding_length(sliding_rows(third), x);
+    const Pair cold = functions(cold_->place(cold_x(x, third), ln_p, {})), hot = functions(place(x, ln_p, third));
+    const Pair begun = map_detail::exp(Pair{-length, cold[0]});
+    const Pair last = map_detail::exp(Pair{-(temperature.distance * begun[0]), cold[1] + adhesion});
+    return blend(mu_of(hot, adhesion), sum_of(Pair{begun[1], last[1]}), last[0]);
   }
 
-  /// The same at each of n points, to the last digit, in about half the time: whole steps are taken for many points, as
-  /// a processor waits where one point's have to follow each other. `result` may be one of the columns. Maps over a
+  /// The same at each of n points, to the last digit, in two thirds of the time: whole steps are taken for many points,
+  /// as a processor waits where one point's have to follow each other. `result` may be one of the columns. Maps over a
   /// range of T0 take 36 kB of the stack, but for slanted ones.
   void mu_at_points(std::size_t n, const double* pressure, const double* velocity, double* result,
                     Outside outside = Outside::nan, const MapTemperature& temperature = {}) const noexcept {
@@ -439,19 +350,21 @@ class FrictionMap {
       return at.status;
     }
     point = everything(at);
-    if (!info_.heat) return at.status;
-    if (const Memory memory = remember(at, temperature.distance); memory.share > 0) {
-      const MapPoint cold = cold_->everything(cold_place(at));
-      const double share = memory.share, by_v = at.free_v ? share * memory.slope * (cold.mu - point.mu) : 0;
-      const auto blend = [share](double hot, double other) { return hot + share * (other - hot); };
-      point = {blend(point.mu, cold.mu),
-               blend(point.hysteresis, cold.hysteresis),
-               blend(point.adhesion, cold.adhesion),
-               blend(point.contact_area, cold.contact_area),
-               blend(point.dmu_dlnp, cold.dmu_dlnp),
-               blend(point.dmu_dlnv, cold.dmu_dlnv) + by_v,
-               blend(point.lateral, cold.lateral)};
-    }
+    if (!remembers(temperature)) return at.status;
+    Where in_cold = at;
+    in_cold.x = cold_x(at.x, at.third);
+    in_cold.cell = cold_->find(in_cold.x, at.ln_p, in_cold.third, in_cold.dx, in_cold.dz, in_cold.slope);
+    const MapPoint cold = cold_->everything(in_cold);
+    double slope = 0;
+    const double lengths =
+        temperature.distance * map_detail::exp(-log_sliding_length(sliding_rows(at.third), at.x, &slope));
+    const double share = map_detail::exp(-lengths),
+                 by_v = at.free_v ? share * lengths * slope * (cold.mu - point.mu) : 0;
+    for (double MapPoint::*const number :
+         {&MapPoint::mu, &MapPoint::hysteresis, &MapPoint::adhesion, &MapPoint::contact_area, &MapPoint::dmu_dlnp,
+          &MapPoint::dmu_dlnv, &MapPoint::lateral})
+      point.*number = blend(point.*number, cold.*number, share);
+    point.dmu_dlnv += by_v;
     return at.status;
   }
 
@@ -461,7 +374,7 @@ class FrictionMap {
                                       Outside outside = Outside::nan) const noexcept {
     const Where at = where(info_.pressure[0], velocity, outside, {1, false, background, map_detail::long_slid});
     if (at.cell == nullptr || !info_.heat) return std::numeric_limits<double>::quiet_NaN();
-    return map_detail::exp(log_sliding_length(at));
+    return map_detail::exp(log_sliding_length(sliding_rows(at.third), at.x));
   }
 
   /// Shear traction sign(v) mu p [Pa]; 0 at rest and without load.
@@ -492,86 +405,72 @@ class FrictionMap {
   bool load(const char* path, std::string& why);
 
  private:
+  /// A place on the third axis of cells.
+  struct Third {
+    double value = 0, d = 0;  // T0 or direction, and from the node below it; of a slanted map d of the share
+    std::int64_t step = 0;    // between nodes
+    double log_a_T = 0;       // of a slanted map
+  };
+
   struct Where {
     const double* cell = nullptr;
     double x = 0, dx = 0, dz = 0, slope = 0;  // s'(x)
     double ln_p = 0, ln_v = 0;                // as the adhesion takes them
-    double background = 0, dT = 0;            // T0, and from the node below it; of a slanted map its share
-    std::int64_t step = 0;                    // of T0 or of the share
-    double log_a_T = 0;                       // of a slanted map
+    Third third;
     Status status = Status::ok;
     bool free_p = true, free_v = true;  // not held at a side of the box
   };
 
-  enum class Axis { none, temperature, slanted };  // of polynomials over T0
+  /// Polynomials of cells at the one T0 of a call, which points that follow share.
+  struct CellsAtT0 {
+    static constexpr std::size_t size = 128;
+    const double* cell[size] = {};
+    alignas(16) double coefficients[size][32];
 
-  struct Memory {
-    double share, slope;  // of what was without heat, and d ln of it / d ln v
+    const double* at(const double* of, const Third& third) noexcept {
+      const std::size_t slot = (reinterpret_cast<std::uintptr_t>(of) >> 10) % size;
+      if (cell[slot] != of) to_temperature(of + 128 * third.step, third.d, coefficients[slot]);
+      cell[slot] = of;
+      return coefficients[slot];
+    }
   };
 
-  [[nodiscard]] ASPERITY_MAP_INLINE map_detail::Pair logarithms(const Where& at) const noexcept {
-    return steps_ == 0 ? bicubic(at.cell, at.dx, at.dz) : tricubic(at);
-  }
-
-  /// From ln mu_H, ln A/A0, and ln of mu_A over A/A0.
-  [[nodiscard]] ASPERITY_MAP_INLINE double mu_of(map_detail::Pair f, double log_adhesion) const noexcept {
-    if (!(info_.shear_stress > 0)) return info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    const map_detail::Pair mu = map_detail::exp(map_detail::Pair{f[0], f[1] + log_adhesion});
-    return info_.hysteresis ? mu[0] + mu[1] : mu[1];
-  }
-
-  /// `mu` in the box of a map with heat.
-  template <Axis axis>
-  [[nodiscard]] double warm_mu(double pressure, double speed, const MapTemperature& temperature) const noexcept {
-#ifdef ASPERITY_MAP_FOURS
-    if (has_fours_) return warm_mu_of_fours<axis>(pressure, speed, temperature);
-#endif
-    const Where at = warm_place<axis>(pressure, speed, temperature.background);
-    if (temperature.distance < map_detail::long_slid) return mu_after(at, temperature.distance);
-    return mu_of(logarithms(at), log_adhesion(at));
-  }
-
-  template <Axis axis>
-  [[nodiscard]] ASPERITY_MAP_INLINE Where warm_place(double pressure, double speed, double background) const noexcept {
-    const map_detail::Pair logarithms_of_both = map_detail::ln(map_detail::Pair{speed, pressure});
-    Where at;
-    at.x = at.ln_v = logarithms_of_both[0];
-    at.ln_p = logarithms_of_both[1];
-    if (axis == Axis::slanted) {
-      shift_velocity(background, at);
-      slant(at.x, at.ln_p, at);
-    } else {
-      if (axis == Axis::temperature) set_step(background, at);
-      at.cell = cell_at(at.x, at.ln_p, at.dx, at.dz);
+  /// Coefficients of a cell, over two axes or three, and how far a point is from its corner and from the node below it.
+  struct Place {
+    const double* coefficients;
+    double dx, dz, t;
+    bool is_over_three;
+  };
+  ASPERITY_MAP_INLINE Place place(double x, double ln_p, Third third, CellsAtT0* cells = nullptr) const noexcept {
+    Place at{};
+    double slope = 0;
+    at.coefficients = find(x, ln_p, third, at.dx, at.dz, slope);
+    if (cells != nullptr) {
+      at.coefficients = cells->at(at.coefficients, third);
+    } else if (steps_ > 0) {
+      at.coefficients += 128 * third.step;
+      at.t = third.d;
+      at.is_over_three = true;
     }
     return at;
   }
 
-#ifdef ASPERITY_MAP_FOURS
-  [[nodiscard]] ASPERITY_MAP_FOURS ASPERITY_MAP_INLINE map_detail::Pair logarithms_of_fours(
-      const Where& at) const noexcept {
-    return steps_ == 0 ? bicubic(at.cell, at.dx, at.dz)
-                       : tricubic_of_fours(at.cell + 128 * at.step, at.dx, at.dz, at.dT);
+  /// ln mu_H and ln A/A0.
+  ASPERITY_MAP_INLINE static map_detail::Pair functions(const Place& at) noexcept {
+    return at.is_over_three ? bicubic(at.coefficients, at.dx, at.dz, At(at.t))
+                            : bicubic(at.coefficients, at.dx, at.dz, Plain{});
   }
 
-  /// The digits of `mu_after` and `mu_of` in fewer steps.
-  template <Axis axis>
-  [[nodiscard]] ASPERITY_MAP_FOURS double warm_mu_of_fours(double pressure, double speed,
-                                                           const MapTemperature& temperature) const noexcept {
-    using map_detail::Four;
-    using map_detail::Pair;
-    const Where at = warm_place<axis>(pressure, speed, temperature.background);
-    const double adhesion = log_adhesion(at);
-    if (!(temperature.distance < map_detail::long_slid)) return mu_of(logarithms_of_fours(at), adhesion);
-    const double length = log_sliding_length(at);
-    const Pair cold = cold_logarithms(at), hot = logarithms_of_fours(at);
-    const Pair first = map_detail::exp(Pair{-length, cold[0]});
-    const Four last =
-        map_detail::exp(Four{-(temperature.distance * first[0]), cold[1] + adhesion, hot[0], hot[1] + adhesion});
-    const double begun = sum_of_parts(first[1], last[1]), long_ago = sum_of_parts(last[2], last[3]);
-    return long_ago + last[0] * (begun - long_ago);
+  /// mu from ln mu_H, ln A/A0, and ln of mu_A over A/A0.
+  ASPERITY_MAP_INLINE double mu_of(map_detail::Pair f, double log_adhesion) const noexcept {
+    if (!(info_.shear_stress > 0)) return info_.hysteresis ? map_detail::exp(f[0]) : 0;
+    return sum_of(map_detail::exp(map_detail::Pair{f[0], f[1] + log_adhesion}));
   }
-#endif
+  /// mu of mu_H and mu_A, of which a map may be without either.
+  [[nodiscard]] double sum_of(map_detail::Pair parts) const noexcept {
+    return (info_.hysteresis ? parts[0] : 0) + (info_.shear_stress > 0 ? parts[1] : 0);
+  }
+  static double blend(double hot, double cold, double share) noexcept { return hot + share * (cold - hot); }
 
   /// `mu` of all other points: outside of the box, or at a temperature that the map has not.
   [[nodiscard]] ASPERITY_MAP_APART double settled_mu(double pressure, double velocity, Outside outside,
@@ -581,235 +480,84 @@ class FrictionMap {
     return point.mu;
   }
 
-  /// Six exponentials, two at a time. What waits for the memory longest comes first: s0, then the cold map, so that the
-  /// processor has the hot map's polynomials to sum meanwhile.
-  [[nodiscard]] ASPERITY_MAP_INLINE double mu_after(const Where& at, double distance) const noexcept {
-    using map_detail::Pair;
-    const double length = log_sliding_length(at), adhesion = log_adhesion(at);
-    const Pair of_cold = cold_logarithms(at), of_hot = logarithms(at);
-    const Pair first = map_detail::exp(Pair{-length, of_cold[0]});
-    const Pair last = map_detail::exp(Pair{-(distance * first[0]), of_cold[1] + adhesion});
-    const double cold = sum_of_parts(first[1], last[1]), hot = mu_of(of_hot, adhesion);
-    return hot + last[0] * (cold - hot);
-  }
-
-  /// ln mu_H and ln A/A0 of the map without heat.
-  [[nodiscard]] ASPERITY_MAP_INLINE map_detail::Pair cold_logarithms(const Where& at) const noexcept {
-    double slope = 0, dx = 0, dz = 0;
-    const double x = cold_x(at), z = at.ln_p - cold_->log_modulus_offset(x, slope);
-    const double* const cell = cold_->cell_at(x, z, dx, dz);
-    return bicubic(cell, dx, dz);
-  }
-
-  /// mu of its hysteresis and its adhesion, of which a map may be without either.
-  [[nodiscard]] double sum_of_parts(double hysteresis, double adhesion) const noexcept {
-    return (info_.hysteresis ? hysteresis : 0) + (info_.shear_stress > 0 ? adhesion : 0);
-  }
-
   static constexpr std::size_t together = 64;  // points
 
-  /// Polynomials of cells at the one T0 of a call, which points that follow share.
-  struct CellsAtT0 {
-    static constexpr std::size_t size = 128;
-    const double* cell[size] = {};
-    alignas(16) double coefficients[size][32];
-  };
-
-  /// Points in the box that need nothing but polynomials, one after another.
-  struct Block {
-    alignas(16) double ln_p[together], ln_v[together], x[together], z[together], law[together], cold[together];
-    std::size_t point[together];  // which they are, from the end which are others
-  };
-
+  /// Each loop is a step of `mu`.
   void mu_of_blocks(std::size_t n, const double* pressure, const double* velocity, double* result, Outside outside,
                     const MapTemperature& temperature, CellsAtT0* cells) const noexcept {
-    Where at;
-    const bool plain = !cells_.empty() && is_usual(temperature);
-    double shift = 0;
-    if (plain && is_slanted_) {
-      shift_velocity(temperature.background, at);
-      shift = at.log_a_T;
-    } else if (plain && steps_ > 0) {
-      set_step(temperature.background, at);
-      shift = log_a_T(at);
-    }
-    Block block;
-    for (std::size_t i = 0; i < n; i += together) {
-      const double *const p = pressure + i, *const v = velocity + i;
-      const std::size_t many = n - i < together ? n - i : together;
-      const std::size_t inside = plain ? sort_out(many, p, v, temperature.a_T, block) : 0;
-      for (std::size_t k = inside; k < many; ++k) {
-        const std::size_t other = plain ? block.point[k] : k;
-        result[i + other] = mu(p[other], v[other], outside, temperature);
-      }
-      if (inside > 0) mu_inside(inside, temperature, at, shift, cells, block, result + i);
-    }
-  }
-
-  /// How many of the points are in the box.
-  std::size_t sort_out(std::size_t n, const double* pressure, const double* velocity, double a_T,
-                       Block& block) const noexcept {
-    std::size_t inside = 0, others = 0, other[together];
-    for (std::size_t i = 0; i < n; ++i) {
-      const double p = pressure[i], speed = map_detail::from_bits(map_detail::bits(velocity[i]) & 0x7fffffffffffffff);
-      if (map_detail::within(p, info_.pressure) && map_detail::within(speed * a_T, info_.velocity)) {
-        block.point[inside] = i;
-        block.ln_p[inside] = p;
-        block.ln_v[inside++] = speed;
-      } else {
-        other[others++] = i;
-      }
-    }
-    for (std::size_t k = 0; k < others; ++k) block.point[inside + k] = other[k];
-    return inside;
-  }
-
-  /// Each loop is a step of `mu`.
-  void mu_inside(std::size_t n, const MapTemperature& temperature, const Where& at, double log_a_T, CellsAtT0* cells,
-                 Block& block, double* result) const noexcept {
-    auto& [ln_p, ln_v, x, z, law, cold, point] = block;
-    const bool unshifted = takes_shifted(temperature);
-    for (std::size_t k = 0; k < n; ++k) x[k] = map_detail::ln(ln_v[k] * temperature.a_T);
-    for (std::size_t k = 0; k < n; ++k) ln_p[k] = map_detail::ln(ln_p[k]);
-    if (info_.shear_stress > 0) {
-      for (std::size_t k = 0; k < n && !unshifted; ++k) ln_v[k] = map_detail::ln(ln_v[k]);
-      const double* const v = unshifted ? x : ln_v;
-      for (std::size_t k = 0; k < n; ++k) law[k] = log_adhesion(ln_p[k], v[k]);
-    }
-    double slope = 0;
-    alignas(16) double hot[together];
-    if (is_slanted_) {
-      slanted_logarithms(n, x, ln_p, at, hot, cold);
-      mu_of_logarithms(n, law, hot, cold);
-    } else {
-      for (std::size_t k = 0; k < n; ++k) z[k] = ln_p[k] - log_modulus_offset(x[k], slope);
-      mu_of_polynomials(n, x, z, law, at, cells, hot);
-    }
-    if (info_.heat && temperature.distance < map_detail::long_slid) {
-      double* const share = ln_v;
-      const SlidingRows rows = sliding_rows(at);
-      for (std::size_t k = 0; k < n; ++k) {
-        share[k] = -log_sliding_length(rows, x[k]);
-        if (steps_ > 0) x[k] = held_cold_x(x[k] + log_a_T);
-        z[k] = ln_p[k] - cold_->log_modulus_offset(x[k], slope);
-      }
-      exps(n, share);
-      for (std::size_t k = 0; k < n; ++k) share[k] *= -temperature.distance;
-      exps(n, share);
-      cold_->mu_of_polynomials(n, x, z, law, at, nullptr, cold);
-      for (std::size_t k = 0; k < n; ++k) hot[k] += share[k] * (cold[k] - hot[k]);
-    }
-    for (std::size_t k = 0; k < n; ++k) result[point[k]] = hot[k];
-  }
-
-  void exps(std::size_t n, double* x) const noexcept {
-    std::size_t k = 0;
-#ifdef ASPERITY_MAP_FOURS
-    if (has_fours_) k = exps_of_fours(n, x);
-#endif
-    for (; k + 2 <= n; k += 2) {
-      const map_detail::Pair e = map_detail::exp(map_detail::pair(&x[k]));
-      x[k] = e[0];
-      x[k + 1] = e[1];
-    }
-    for (; k < n; ++k) x[k] = map_detail::exp(x[k]);
-  }
-
-#ifdef ASPERITY_MAP_FOURS
-  /// How many it has done.
-  ASPERITY_MAP_FOURS static std::size_t exps_of_fours(std::size_t n, double* x) noexcept {
-    std::size_t k = 0;
-    for (; k + 4 <= n; k += 4) {
-      auto* const at = static_cast<map_detail::AnyFour*>(static_cast<void*>(x + k));
-      at->four = map_detail::exp(at->four);
-    }
-    return k;
-  }
-#endif
-
-  /// mu at x and z and `law`, ln of mu_A over A/A0.
-  void mu_of_polynomials(std::size_t n, const double* x, const double* z, const double* law, const Where& at,
-                         CellsAtT0* cells, double* mu) const noexcept {
-    std::size_t entry[together];
-    alignas(16) double area[together];
-    for (std::size_t k = 0; k < n; ++k) entry[k] = entry_at(x[k], z[k]);
-    for (std::size_t k = 0; k < n; ++k) {
-      const double* const cell = this->cells() + entry[k] * cell_size_;
-      const double* c = cell;
-      if (cells != nullptr) {
-        const std::size_t slot = entry[k] % CellsAtT0::size;
-        double* const room = cells->coefficients[slot];
-        if (cells->cell[slot] != cell) {
-          to_temperature(c + 128 * at.step, at.dT, room);
-          cells->cell[slot] = cell;
+    using map_detail::Pair;
+    const bool usual = is_usual(temperature), memory = usual && remembers(temperature);
+    const Third third = usual ? third_at(temperature.background) : Third{};
+    const SlidingRows rows = memory ? sliding_rows(third) : SlidingRows{};
+    std::size_t point[together];
+    double speed[together], x[together], ln_p[together], adhesion[together];
+    Pair hot[together], cold[together], begun[together];
+    for (std::size_t begin = 0; begin < n; begin += together) {
+      std::size_t inside = 0;
+      for (std::size_t i = begin; i < n && i < begin + together; ++i) {
+        const double v = map_detail::magnitude(velocity[i]);
+        if (!usual || !is_inside(pressure[i], v * temperature.a_T)) {
+          result[i] = settled_mu(pressure[i], velocity[i], outside, temperature);
+          continue;
         }
-        c = room;
+        speed[inside] = v;
+        ln_p[inside] = pressure[i];
+        point[inside++] = i;
       }
-      const double* const corner = &corners_[2 * entry[k]];
-      const map_detail::Pair f = bicubic(c, x[k] - corner[0], z[k] - corner[1]);
-      mu[k] = f[0];
-      area[k] = f[1];
-    }
-    mu_of_logarithms(n, law, mu, area);
-  }
-
-  /// mu, where ln mu_H was, from it, ln A/A0 and `law`.
-  void mu_of_logarithms(std::size_t n, const double* law, double* mu, double* area) const noexcept {
-    if (info_.hysteresis)
-      exps(n, mu);
-    else
-      for (std::size_t k = 0; k < n; ++k) mu[k] = 0;
-    if (!(info_.shear_stress > 0)) return;
-    for (std::size_t k = 0; k < n; ++k) area[k] += law[k];
-    exps(n, area);
-    for (std::size_t k = 0; k < n; ++k) mu[k] += area[k];
-  }
-
-  /// ln mu_H and ln A/A0 of a slanted map at x and ln p, at the temperature of `at`.
-  void slanted_logarithms(std::size_t n, const double* x, const double* ln_p, Where at, double* h,
-                          double* a) const noexcept {
-#ifdef ASPERITY_MAP_FOURS
-    if (has_fours_) return slanted_logarithms_of_fours(n, x, ln_p, at, h, a);
-#endif
-    for (std::size_t k = 0; k < n; ++k) {
-      slant(x[k], ln_p[k], at);
-      const map_detail::Pair f = tricubic(at);
-      h[k] = f[0];
-      a[k] = f[1];
+      for (std::size_t k = 0; k < inside; ++k) x[k] = map_detail::ln(speed[k] * temperature.a_T);
+      for (std::size_t k = 0; k < inside; ++k) ln_p[k] = map_detail::ln(ln_p[k]);
+      for (std::size_t k = 0; k < inside; ++k)
+        adhesion[k] = log_adhesion(ln_p[k], takes_shifted(temperature) ? x[k] : map_detail::ln(speed[k]));
+      functions(inside, x, ln_p, third, cells, hot);
+      for (std::size_t k = 0; k < inside; ++k) hot[k] = Pair{hot[k][0], hot[k][1] + adhesion[k]};
+      exps(inside, hot);
+      for (std::size_t k = 0; k < inside && !memory; ++k) result[point[k]] = sum_of(hot[k]);
+      if (!memory) continue;
+      double* const length = speed;
+      for (std::size_t k = 0; k < inside; ++k) length[k] = log_sliding_length(rows, x[k]);
+      for (std::size_t k = 0; k < inside; ++k) x[k] = cold_x(x[k], third);
+      cold_->functions(inside, x, ln_p, {}, nullptr, cold);
+      for (std::size_t k = 0; k < inside; ++k) begun[k] = Pair{-length[k], cold[k][0]};
+      exps(inside, begun);
+      for (std::size_t k = 0; k < inside; ++k)
+        cold[k] = Pair{-(temperature.distance * begun[k][0]), cold[k][1] + adhesion[k]};
+      exps(inside, cold);
+      for (std::size_t k = 0; k < inside; ++k)
+        result[point[k]] = blend(sum_of(hot[k]), sum_of(Pair{begun[k][1], cold[k][1]}), cold[k][0]);
     }
   }
-
-#ifdef ASPERITY_MAP_FOURS
-  ASPERITY_MAP_FOURS void slanted_logarithms_of_fours(std::size_t n, const double* x, const double* ln_p, Where at,
-                                                      double* h, double* a) const noexcept {
-    for (std::size_t k = 0; k < n; ++k) {
-      slant(x[k], ln_p[k], at);
-      const map_detail::Pair f = logarithms_of_fours(at);
-      h[k] = f[0];
-      a[k] = f[1];
-    }
+  ASPERITY_MAP_APART void functions(std::size_t n, const double* x, const double* ln_p, const Third& third,
+                                    CellsAtT0* cells, map_detail::Pair* f) const noexcept {
+    Place at[together];
+    for (std::size_t k = 0; k < n; ++k) at[k] = place(x[k], ln_p[k], third, cells);
+    for (std::size_t k = 0; k < n; ++k) f[k] = functions(at[k]);
   }
-#endif
+  ASPERITY_MAP_APART static void exps(std::size_t n, map_detail::Pair* x) noexcept {
+    for (std::size_t k = 0; k < n; ++k) x[k] = map_detail::exp(x[k]);
+  }
 
   [[nodiscard]] MapPoint everything(const Where& at) const noexcept {
-    double fx[2] = {0, 0}, fz[2] = {0, 0};
+    using map_detail::Pair;
+    using map_detail::pair;
     alignas(16) double room[32];
-    const double* const c = coefficients(at, room);
-    const map_detail::Pair f = bicubic(c, at.dx, at.dz);
-    for (int j = 4; j-- > 0;)
-      for (int k = 0; k < 2; ++k) {
-        const double* const row = &c[8 * j + k];
-        fx[k] = fx[k] * at.dz + (row[2] + at.dx * (2 * row[4] + at.dx * 3 * row[6]));
-        if (j > 0) fz[k] = fz[k] * at.dz + j * (row[0] + at.dx * (row[2] + at.dx * (row[4] + at.dx * row[6])));
-      }
-    for (int k = 0; k < 2; ++k) fx[k] -= at.slope * fz[k];  // at a constant pressure
+    const double *c = at.cell, x = at.dx, z = at.dz;
+    if (steps_ > 0) c = to_temperature(c + 128 * at.third.step, at.third.d, room);
+    const Pair f = bicubic(c, x, z, Plain{});
+    Pair fx{0, 0}, fz{0, 0};
+    for (int j = 4; j-- > 0;) {
+      const double* const r = &c[8 * j];
+      fx = fx * z + (pair(r + 2) + (pair(r + 4) * 2 + pair(r + 6) * (x * 3)) * x);
+      if (j > 0) fz = fz * z + (pair(r) + (pair(r + 2) + (pair(r + 4) + pair(r + 6) * x) * x) * x) * j;
+    }
+    fx = fx + fz * -at.slope;  // at a constant pressure
     if (is_slanted_) to_velocity(at, fx, fz);
     MapPoint point{};
     point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
-    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at)) : 0;
+    point.adhesion = info_.shear_stress > 0 ? map_detail::exp(f[1] + log_adhesion(at.ln_p, at.ln_v)) : 0;
     point.contact_area = map_detail::exp(f[1]);
     point.mu = point.hysteresis + point.adhesion;
-    point.lateral = across_ ? point.hysteresis * across_->logarithms(across_place(at))[0] : 0;
+    if (across_)
+      point.lateral = point.hysteresis * functions(across_->place(at.x, at.ln_p, across_->third_at(at.third.value)))[0];
     const double falling = -2 * width_ * (at.ln_v - ln_reference_);
     point.dmu_dlnp = at.free_p ? point.hysteresis * fz[0] + point.adhesion * (fz[1] - 1) : 0;
     point.dmu_dlnv = at.free_v ? point.hysteresis * fx[0] + point.adhesion * (fx[1] + falling) : 0;
@@ -817,78 +565,49 @@ class FrictionMap {
   }
 
   /// Of a slanted map: from slopes over ln p and over ln v a_T to those over ln v, at a constant T0, and ln p.
-  void to_velocity(const Where& at, double* fx, double* fz) const noexcept {
-    const double by_v = slope_of_share(at);
-    const double *const c = at.cell + 128 * at.step, t = at.dT, z = at.dz, x = at.dx;
-    for (int k = 0; k < 2; ++k) {
-      double by_share = 0;
-      for (int j = 4; j-- > 0;) {
-        double row = 0;
-        for (int i = 4; i-- > 0;) {
-          const double* const a = c + 8 * j + 2 * i + k;
-          row = row * x + (a[32] + t * (2 * a[64] + t * 3 * a[96]));
-        }
-        by_share = by_share * z + row;
-      }
-      const double by_p = fx[k];
-      fx[k] = fz[k] + by_share * by_v;
-      fz[k] = by_p;
-    }
-  }
-
-  /// Two coefficients, of ln mu_H and ln A/A0, at dT from a node of T0.
-  ASPERITY_MAP_INLINE static map_detail::Pair at_temperature(const double* c, double t, double t2) noexcept {
+  void to_velocity(const Where& at, map_detail::Pair& fx, map_detail::Pair& fz) const noexcept {
     using map_detail::pair;
-    return (pair(c) + pair(c + 32) * t) + (pair(c + 64) + pair(c + 96) * t) * t2;
-  }
-
-#ifdef ASPERITY_MAP_FOURS
-  /// The digits of `tricubic` in half the steps.
-  ASPERITY_MAP_FOURS ASPERITY_MAP_INLINE static map_detail::Pair tricubic_of_fours(const double* c, double x, double z,
-                                                                                   double t) noexcept {
-    using map_detail::Four;
-    using map_detail::Pair;
-    const double x2 = x * x, z2 = z * z, t2 = t * t;
-    Four at[8];  // the two lower and the two higher powers of x, for each of z
-    const auto* const row = static_cast<const map_detail::AnyFour*>(static_cast<const void*>(c));
-    for (int i = 0; i < 8; ++i)
-      at[i] = (row[i].four + row[8 + i].four * t) + (row[16 + i].four + row[24 + i].four * t) * t2;
-    Four in_x[2];  // for two powers of z
-    for (int j = 0; j < 2; ++j) {
-      const Four *const a = at + 4 * j, *const b = a + 2;
-      in_x[j] =
-          (__builtin_shufflevector(a[0], b[0], 0, 1, 4, 5) + __builtin_shufflevector(a[0], b[0], 2, 3, 6, 7) * x) +
-          (__builtin_shufflevector(a[1], b[1], 0, 1, 4, 5) + __builtin_shufflevector(a[1], b[1], 2, 3, 6, 7) * x) * x2;
-    }
-    const Four low = in_x[0], high = in_x[1];
-    return (Pair{low[0], low[1]} + Pair{low[2], low[3]} * z) +
-           (Pair{high[0], high[1]} + Pair{high[2], high[3]} * z) * z2;
-  }
-#endif
-
-  ASPERITY_MAP_INLINE static map_detail::Pair tricubic(const Where& at) noexcept {
-    const double x = at.dx, z = at.dz, x2 = x * x, z2 = z * z, t = at.dT, t2 = t * t;
-    const auto row = [=](const double* r) {
-      return (at_temperature(r, t, t2) + at_temperature(r + 2, t, t2) * x) +
-             (at_temperature(r + 4, t, t2) + at_temperature(r + 6, t, t2) * x) * x2;
+    const double t = at.third.d;
+    const auto by_share = [t](const double* c) {
+      return pair(c + 32) + (pair(c + 64) * 2 + pair(c + 96) * (t * 3)) * t;
     };
-    const double* const c = at.cell + 128 * at.step;
-    return (row(c) + row(c + 8) * z) + (row(c + 16) + row(c + 24) * z) * z2;
+    const double* const c = at.cell + 128 * at.third.step;
+    const map_detail::Pair by_p = fx;
+    fx = fz + bicubic(c, at.dx, at.dz, by_share) * slope_of_share(at.x, at.third.log_a_T);
+    fz = by_p;
   }
 
-  /// The polynomials of a cell at T0, in `room` where they depend on it.
-  const double* coefficients(const Where& at, double* room) const noexcept {
-    if (steps_ == 0) return at.cell;
-    to_temperature(at.cell + 128 * at.step, at.dT, room);
+  /// Two coefficients, of ln mu_H and ln A/A0, as they stand, or t from a node of the third axis.
+  struct Plain {
+    ASPERITY_MAP_INLINE map_detail::Pair operator()(const double* c) const noexcept { return map_detail::pair(c); }
+  };
+  struct At {
+    double t, t2;
+    explicit At(double from_node) noexcept : t(from_node), t2(from_node * from_node) {}
+    ASPERITY_MAP_INLINE map_detail::Pair operator()(const double* c) const noexcept {
+      using map_detail::pair;
+      return (pair(c) + pair(c + 32) * t) + (pair(c + 64) + pair(c + 96) * t) * t2;
+    }
+  };
+
+  /// The polynomials of a cell there, put into `room`.
+  static const double* to_temperature(const double* c, double t, double* room) noexcept {
+    for (int i = 0; i < 32; i += 2) {
+      const map_detail::Pair both = At(t)(c + i);
+      room[i] = both[0];
+      room[i + 1] = both[1];
+    }
     return room;
   }
 
-  static void to_temperature(const double* c, double dT, double* room) noexcept {
-    for (int i = 0; i < 32; i += 2) {
-      const map_detail::Pair sum = at_temperature(c + i, dT, dT * dT);
-      room[i] = sum[0];
-      room[i + 1] = sum[1];
-    }
+  /// ln mu_H and ln A/A0 of a cell at once, from its coefficients; sums in pairs, so that the terms need not wait for
+  /// each other.
+  template <class Coefficient>
+  ASPERITY_MAP_INLINE static map_detail::Pair bicubic(const double* c, double x, double z, Coefficient of) noexcept {
+    const double x2 = x * x, z2 = z * z;
+    const auto row = [=](const double* r)
+                         ASPERITY_MAP_INLINE { return (of(r) + of(r + 2) * x) + (of(r + 4) + of(r + 6) * x) * x2; };
+    return (row(c) + row(c + 8) * z) + (row(c + 16) + row(c + 24) * z) * z2;
   }
 
   /// Cubics of ln s0 over a share of a step of x: four coefficients in the row below a T0, by how much those in the
@@ -897,16 +616,13 @@ class FrictionMap {
     const double* cubics;
     double share;
   };
-  [[nodiscard]] ASPERITY_MAP_INLINE SlidingRows sliding_rows(const Where& at) const noexcept {
+  [[nodiscard]] ASPERITY_MAP_INLINE SlidingRows sliding_rows(const Third& third) const noexcept {
     if (steps_ == 0) return {map_detail::numbers(sliding_), 0};
-    const double row = (at.background - info_.temperature[0]) * rows_per_T_;
+    const double row = (third.value - info_.temperature[0]) * rows_per_T_;
     const std::int64_t j = index(row, last_row_);
     return {map_detail::numbers(sliding_) + row_size_ * j, row - static_cast<double>(j)};
   }
 
-  [[nodiscard]] ASPERITY_MAP_INLINE double log_sliding_length(const Where& at) const noexcept {
-    return log_sliding_length(sliding_rows(at), at.x);
-  }
   /// ln s0 at an x, and its slope.
   [[nodiscard]] ASPERITY_MAP_INLINE double log_sliding_length(const SlidingRows& rows, double x,
                                                               double* slope = nullptr) const noexcept {
@@ -921,61 +637,20 @@ class FrictionMap {
     return (low[0] + low[1] * t) + (high[0] + high[1] * t) * (t * t);
   }
 
-  [[nodiscard]] Memory remember(const Where& at, double distance) const noexcept {
-    if (distance >= map_detail::long_slid) return {0, 0};
-    double slope = 0;
-    const double lengths = distance * map_detail::exp(-log_sliding_length(sliding_rows(at), at.x, &slope));
-    return {map_detail::exp(-lengths), lengths * slope};
+  /// Whether what was without heat is not forgotten.
+  [[nodiscard]] bool remembers(const MapTemperature& temperature) const noexcept {
+    return info_.heat && temperature.distance < map_detail::long_slid;
   }
 
   /// ln of a_T v on the map without heat.
-  [[nodiscard]] ASPERITY_MAP_INLINE double cold_x(const Where& at) const noexcept {
-    if (is_slanted_) return held_cold_x(at.x + at.log_a_T);
-    return steps_ == 0 ? at.x : held_cold_x(at.x + log_a_T(at));
-  }
-
-  [[nodiscard]] ASPERITY_MAP_INLINE double held_cold_x(double x) const noexcept {
-    const double first = cold_->offset_x_, last = cold_->last_x_;
-    return x < first ? first : x > last ? last : x;  // by rounding
-  }
-
-  /// From the lowest T0 to that of a point, on a map with an axis of it.
-  [[nodiscard]] ASPERITY_MAP_INLINE double log_a_T(const Where& at) const noexcept {
-    return cubic(shift_.data() + 4 * at.step, at.dT * steps_per_T_);
-  }
-
-  [[nodiscard]] Where cold_place(const Where& at) const noexcept {
-    Where cold = at;
-    cold.x = cold_x(at);
-    const double z = at.ln_p - cold_->log_modulus_offset(cold.x, cold.slope);
-    cold.cell = cold_->cell_at(cold.x, z, cold.dx, cold.dz);
-    return cold;
-  }
-
-  [[nodiscard]] Where across_place(const Where& at) const noexcept {
-    Where across = at;
-    if (is_slanted_) {
-      across_->slant(at.x, at.ln_p, across);
-      return across;
-    }
-    const double z = at.ln_p - across_->log_modulus_offset(at.x, across.slope);
-    across.cell = across_->cell_at(at.x, z, across.dx, across.dz);
-    if (across_->steps_ > 0) across_->set_step(at.background, across);
-    return across;
-  }
-
-  /// ln mu_H and ln A/A0 of a cell at once; sums in pairs, so that the terms need not wait for each other.
-  ASPERITY_MAP_INLINE static map_detail::Pair bicubic(const double* c, double x, double z) noexcept {
-    using map_detail::pair;
-    const double x2 = x * x, z2 = z * z;
-    const auto row = [=](const double* r) {
-      return (pair(r) + pair(r + 2) * x) + (pair(r + 4) + pair(r + 6) * x) * x2;
-    };
-    return (row(c) + row(c + 8) * z) + (row(c + 16) + row(c + 24) * z) * z2;
+  [[nodiscard]] ASPERITY_MAP_INLINE double cold_x(double x, const Third& third) const noexcept {
+    if (steps_ == 0) return x;
+    const double log_a_T = is_slanted_ ? third.log_a_T : cubic(shift_.data() + 4 * third.step, third.d * steps_per_T_);
+    const double shifted = x + log_a_T, first = cold_->offset_x_, last = cold_->last_x_;
+    return shifted < first ? first : shifted > last ? last : shifted;  // by rounding
   }
 
   /// ln of mu_A over A/A0.
-  [[nodiscard]] double log_adhesion(const Where& at) const noexcept { return log_adhesion(at.ln_p, at.ln_v); }
   [[nodiscard]] double log_adhesion(double ln_p, double ln_v) const noexcept {
     const double off = ln_v - ln_reference_;
     return ln_shear_stress_ - ln_p - width_ * off * off;
@@ -989,24 +664,14 @@ class FrictionMap {
 
   [[nodiscard]] Where where(double pressure, double velocity, Outside outside,
                             const MapTemperature& temperature) const noexcept {
+    double speed = map_detail::magnitude(velocity), shifted = speed * temperature.a_T;
     Where at;
-    double speed = map_detail::from_bits(map_detail::bits(velocity) & 0x7fffffffffffffff);
-    double shifted = speed * temperature.a_T;
-    if (is_inside(pressure, shifted) && is_usual(temperature)) {
-      if (steps_ > 0) set_step(temperature.background, at);
-    } else if (!settle(pressure, speed, shifted, outside, temperature, at)) {
-      return at;
-    }
+    if (!settle(pressure, speed, shifted, outside, temperature, at)) return at;
+    at.third = third_at(at.third.value);
     at.x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
     at.ln_v = takes_shifted(temperature) ? at.x : map_detail::ln(speed);
-    if (is_slanted_) {
-      shift_velocity(at.background, at);
-      slant(at.x, at.ln_p, at);
-    } else {
-      const double z = at.ln_p - log_modulus_offset(at.x, at.slope);
-      at.cell = cell_at(at.x, z, at.dx, at.dz);
-    }
+    at.cell = find(at.x, at.ln_p, at.third, at.dx, at.dz, at.slope);
     return at;
   }
 
@@ -1025,54 +690,65 @@ class FrictionMap {
   [[nodiscard]] bool is_usual(const MapTemperature& temperature) const noexcept {
     if (map_detail::bits(temperature.distance) > map_detail::bits(map_detail::long_slid)) return false;  // or below 0
     if (map_detail::is_nan(temperature.direction)) return false;
-    if (!info_.heat) return temperature.background == 0 && steps_ == 0;
-    const bool only = steps_ == 0 && temperature.background == 0;
+    const bool only = steps_ == 0 && map_detail::bits(temperature.background) << 1 == 0;
+    if (!info_.heat) return only;
     return (only || map_detail::within(temperature.background, info_.temperature)) && temperature.a_T == 1 &&
            !temperature.shifts_adhesion;
   }
 
-  /// What `where` does for a point that is not plainly in the box; false where there is no value.
+  /// The status of a point and its place on the third axis; moves it to the nearest one of the box if it shall. False
+  /// where there is no value.
   bool settle(double& pressure, double& speed, double& shifted, Outside outside, const MapTemperature& temperature,
               Where& at) const noexcept {
-    const double turned = map_detail::from_bits(map_detail::bits(temperature.direction) & 0x7fffffffffffffff);
-    const bool number = !map_detail::is_nan(temperature.background) && !map_detail::is_nan(temperature.distance) &&
-                        map_detail::within(turned, {0, 1e300}) && temperature.distance >= 0;
-    at.status = number ? Status::not_on_this_map : Status::not_a_number;
-    if (!number || !has(temperature)) return false;
-    at.status = Status::ok;
-    if (!is_inside(pressure, shifted) && !hold(pressure, speed, shifted, outside, temperature.a_T, at)) return false;
-    if (info_.turns) turn(temperature.direction, at);
-    return !info_.heat || warm(temperature.background, outside, at);
-  }
-
-  /// Finds the step of a direction, of which half a turn makes no other.
-  void turn(double direction, Where& at) const noexcept {
-    const double half = info_.temperature[1], rest = direction - half * std::floor(direction / half);
-    set_step(rest > 0 ? rest < half ? rest : half : 0, at);
-  }
-
-  /// Whether it is a temperature as the map takes it: a_T without heat, T0 with it.
-  [[nodiscard]] bool has(const MapTemperature& temperature) const noexcept {
-    return info_.heat ? temperature.a_T == 1 && !temperature.shifts_adhesion : temperature.background == 0;
-  }
-
-  /// Finds the step of T0; false where the map has no value.
-  bool warm(double background, Outside outside, Where& at) const noexcept {
-    if (background == 0 && steps_ == 0) background = info_.temperature[0];
-    if (!map_detail::within(background, info_.temperature)) {
-      if (at.status == Status::ok) at.status = Status::temperature_outside;
-      if (outside == Outside::nan || !(background > 0)) return false;
-      background = info_.temperature[background > info_.temperature[0] ? 1 : 0];
+    using map_detail::within;
+    const auto nearest = [](double x, const std::array<double, 2>& box) { return box[x > box[0] ? 1 : 0]; };
+    const double a_T = temperature.a_T;
+    at.status = Status::not_a_number;
+    if (map_detail::is_nan(temperature.background) || map_detail::is_nan(temperature.distance) ||
+        map_detail::is_nan(temperature.direction) || temperature.distance < 0)
+      return false;
+    at.status = Status::not_on_this_map;
+    if (info_.heat ? a_T != 1 || temperature.shifts_adhesion : temperature.background != 0) return false;
+    at.status = Status::not_a_number;
+    if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) ||
+        map_detail::bits(a_T) - 1 >= 0x7fefffffffffffff || cells_.empty())  // not positive and finite
+      return false;
+    double third = temperature.background;
+    if (info_.heat && steps_ == 0 && third == 0) third = info_.temperature[0];
+    if (info_.turns) {  // half a turn makes no other direction
+      if (!within(map_detail::magnitude(temperature.direction), {0, map_detail::huge})) return false;
+      const double half = info_.temperature[1],
+                   rest = temperature.direction - half * std::floor(temperature.direction / half);
+      third = rest > 0 ? rest < half ? rest : half : 0;
     }
-    if (steps_ > 0) set_step(background, at);
+    at.free_p = within(pressure, info_.pressure);
+    at.free_v = within(shifted, info_.velocity);
+    const bool free_third = !info_.heat || within(third, info_.temperature);
+    at.status = !at.free_p   ? Status::pressure_outside
+                : !at.free_v ? Status::velocity_outside
+                : free_third ? Status::ok
+                             : Status::temperature_outside;
+    if ((at.status != Status::ok && outside == Outside::nan) || (!free_third && !(third > 0))) return false;
+    if (!at.free_p) pressure = nearest(pressure, info_.pressure);
+    if (!at.free_v) {
+      shifted = nearest(shifted, info_.velocity);
+      speed = shifted / a_T;
+    }
+    at.third.value = free_third ? third : nearest(third, info_.temperature);
     return true;
   }
 
-  ASPERITY_MAP_INLINE void set_step(double background, Where& at) const noexcept {
-    at.background = background;
-    const double scaled = (background - info_.temperature[0]) * steps_per_T_;
-    at.step = index(scaled, last_step_);
-    at.dT = background - info_.temperature[0] - static_cast<double>(at.step) * step_of_T_;
+  ASPERITY_MAP_INLINE Third third_at(double value) const noexcept {
+    Third third;
+    third.value = value;
+    const double from = value - info_.temperature[0];
+    if (is_slanted_) {
+      third.log_a_T = shift_[0] * from / (1 + shift_[1] * from);
+    } else if (steps_ > 0) {
+      third.step = index(from * steps_per_T_, last_step_);
+      third.d = from - static_cast<double>(third.step) * step_of_T_;
+    }
+    return third;
   }
 
   /// How far it is along the line of constant v a_T from its lower end and from its upper one.
@@ -1080,8 +756,8 @@ class FrictionMap {
     double above, below;
     [[nodiscard]] double length() const noexcept { return above + below; }
   };
-  [[nodiscard]] ASPERITY_MAP_INLINE Way way_of(const Where& at) const noexcept {
-    return {least(last_x_ - at.x, at.log_a_T - log_a_T_[0]), least(at.x - offset_x_, log_a_T_[1] - at.log_a_T)};
+  [[nodiscard]] ASPERITY_MAP_INLINE Way way_of(double x, double log_a_T) const noexcept {
+    return {least(last_x_ - x, log_a_T - log_a_T_[0]), least(x - offset_x_, log_a_T_[1] - log_a_T)};
   }
   /// The smaller one, but not below 0 by rounding.
   static double least(double a, double b) noexcept {
@@ -1090,52 +766,14 @@ class FrictionMap {
   }
 
   /// d of the share of the way / d ln v at a constant T0, whichever sides lines in the point's band begin and end on.
-  [[nodiscard]] double slope_of_share(const Where& at) const noexcept {
+  [[nodiscard]] double slope_of_share(double x, double log_a_T) const noexcept {
     std::size_t band = 0;
-    while (at.x + at.log_a_T >= ends_[band]) ++band;
+    while (x + log_a_T >= ends_[band]) ++band;
     const bool is_wide = last_x_ - offset_x_ > log_a_T_[1] - log_a_T_[0];
     const bool from_v = band >= (is_wide ? 2 : 1), to_v = band < (is_wide ? 1 : 2);
-    const Way way = way_of(at);
+    const Way way = way_of(x, log_a_T);
     constexpr double rounding = 1e-14;  // at the two ends of z there is no way, and nothing changes along it
     return -((from_v ? way.below : 0) + (to_v ? way.above : 0)) / (way.length() * way.length() + rounding);
-  }
-
-  /// ln a_T of a slanted map.
-  ASPERITY_MAP_INLINE void shift_velocity(double background, Where& at) const noexcept {
-    at.background = background;
-    const double t = background - info_.temperature[0];
-    at.log_a_T = shift_[0] * t / (1 + shift_[1] * t);
-  }
-
-  /// Finds the cell of a slanted map from ln v, ln p and ln a_T.
-  ASPERITY_MAP_INLINE void slant(double x, double ln_p, Where& at) const noexcept {
-    at.x = x;
-    at.ln_p = ln_p;
-    const Way way = way_of(at);
-    // where there is no way, that side of it on which the point's T0 is
-    const double nothing = 1e-300, is_last = at.log_a_T >= log_a_T_[1] ? nothing : 0;
-    const double share = (way.above + is_last) / (way.length() + nothing);
-    at.step = index(share * steps_, last_step_);
-    at.dT = share - static_cast<double>(at.step) * step_of_share_;
-    at.cell = cell_at(at.ln_p, at.x + at.log_a_T, at.dx, at.dz);
-  }
-
-  /// Moves a point from outside of the box to its nearest one, if it shall; false where there is no value.
-  bool hold(double& pressure, double& speed, double& shifted, Outside outside, double a_T, Where& at) const noexcept {
-    at.status = Status::not_a_number;
-    if (map_detail::is_nan(pressure) || map_detail::is_nan(shifted) ||
-        map_detail::bits(a_T) - 1 >= 0x7fefffffffffffff || cells_.empty())  // not positive and finite
-      return false;
-    at.free_p = map_detail::within(pressure, info_.pressure);
-    at.free_v = map_detail::within(shifted, info_.velocity);
-    at.status = at.free_p ? Status::velocity_outside : Status::pressure_outside;
-    if (outside == Outside::nan) return false;
-    if (!at.free_p) pressure = info_.pressure[pressure > info_.pressure[0] ? 1 : 0];
-    if (!at.free_v) {
-      shifted = info_.velocity[shifted > info_.velocity[0] ? 1 : 0];
-      speed = shifted / a_T;
-    }
-    return true;
   }
 
   /// A cubic over a share of a step.
@@ -1155,8 +793,19 @@ class FrictionMap {
     return cubic(c, t);
   }
 
-  /// A cell's polynomials, and how far from its corner.
-  [[nodiscard]] ASPERITY_MAP_INLINE const double* cell_at(double x, double z, double& dx, double& dz) const noexcept {
+  /// The cell of a point, how far it is from its corner, and s'(x); of a slanted map where on the third axis too.
+  ASPERITY_MAP_INLINE const double* find(double x, double ln_p, Third& third, double& dx, double& dz,
+                                         double& slope) const noexcept {
+    if (!is_slanted_) return cell_at(x, ln_p - log_modulus_offset(x, slope), dx, dz);
+    const Way way = way_of(x, third.log_a_T);
+    // where there is no way, that side of it on which the point's T0 is
+    const double nothing = 1e-300, is_last = third.log_a_T >= log_a_T_[1] ? nothing : 0;
+    const double share = (way.above + is_last) / (way.length() + nothing);
+    third.step = index(share * steps_, last_step_);
+    third.d = share - static_cast<double>(third.step) * step_of_share_;
+    return cell_at(ln_p, x + third.log_a_T, dx, dz);
+  }
+  ASPERITY_MAP_INLINE const double* cell_at(double x, double z, double& dx, double& dz) const noexcept {
     const std::size_t entry = entry_at(x, z);
     dx = x - corners_[2 * entry];
     dz = z - corners_[2 * entry + 1];
@@ -1210,9 +859,6 @@ class FrictionMap {
   std::vector<std::int32_t> entries_;
   std::vector<double> corners_;  // of cells: x, z
   std::vector<map_detail::Line> cells_;
-#ifdef ASPERITY_MAP_FOURS
-  bool has_fours_ = __builtin_cpu_supports("avx2") != 0;  // the processor
-#endif
 };
 
 namespace map_detail {
