@@ -5,9 +5,7 @@
 
 namespace asperity_fmu {
 
-inline fmi2Status fmi2(Status status) {
-  return status == Status::ok ? fmi2OK : status == Status::warning ? fmi2Warning : fmi2Error;
-}
+inline fmi2Status fmi2(Status status) { return static_cast<fmi2Status>(status); }
 
 /// `act` on each variable and its point. Parameters belong to point 0.
 template <class Act>
@@ -33,12 +31,6 @@ fmi2Status each_value(fmi2Component c, const Call& call, const fmi2ValueReferenc
                     [&](Instance& instance, std::uint32_t variable, std::size_t point, std::size_t i) {
                       return (instance.*act)(variable, point, value[i]);
                     });
-}
-
-inline fmi2Status none_of(fmi2Component c, std::size_t nvr, const char* kind) {
-  return fmi2(guarded(c, [&](Instance& instance) {
-    return nvr == 0 ? Status::ok : instance.error(std::string("there is no variable of type ") + kind);
-  }));
 }
 
 }  // namespace asperity_fmu
@@ -106,7 +98,7 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetInteger(fmi2Component c, const fmi2ValueRe
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetInteger(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                               const fmi2Integer[]) {
-  return none_of(c, nvr, "Integer that can be set");
+  return fmi2(no_variable_of(c, nvr, "Integer that can be set"));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetBoolean(fmi2Component c, const fmi2ValueReference vr[], std::size_t nvr,
                                               fmi2Boolean value[]) {
@@ -118,11 +110,11 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2SetBoolean(fmi2Component c, const fmi2ValueRe
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetString(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                              fmi2String[]) {
-  return none_of(c, nvr, "String");
+  return fmi2(no_variable_of(c, nvr, "String"));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetString(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                              const fmi2String[]) {
-  return none_of(c, nvr, "String");
+  return fmi2(no_variable_of(c, nvr, "String"));
 }
 
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate* state) {
@@ -165,11 +157,11 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, con
 
 ASPERITY_FMU_EXPORT fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference[], std::size_t nvr,
                                                            const fmi2Integer[], const fmi2Real[]) {
-  return none_of(c, nvr, "derivative of an input");
+  return fmi2(no_variable_of(c, nvr, "derivative of an input"));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReference[],
                                                             std::size_t nvr, const fmi2Integer[], fmi2Real[]) {
-  return none_of(c, nvr, "derivative of an output");
+  return fmi2(no_variable_of(c, nvr, "derivative of an output"));
 }
 ASPERITY_FMU_EXPORT fmi2Status fmi2DoStep(fmi2Component c, fmi2Real from, fmi2Real size, fmi2Boolean) {
   return fmi2(guarded(c, stepping_on, [&](Instance& instance) { return instance.step(from, size); }));
@@ -180,7 +172,7 @@ ASPERITY_FMU_EXPORT fmi2Status fmi2GetStatus(fmi2Component, const fmi2StatusKind
 ASPERITY_FMU_EXPORT fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real* value) {
   if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
   return fmi2(guarded(c, [&](Instance& instance) {
-    *value = instance.model->state().time;
+    *value = instance.model->state().settings.time;
     return Status::ok;
   }));
 }

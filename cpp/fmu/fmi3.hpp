@@ -5,9 +5,7 @@
 
 namespace asperity_fmu {
 
-inline fmi3Status fmi3(Status status) {
-  return status == Status::ok ? fmi3OK : status == Status::warning ? fmi3Warning : fmi3Error;
-}
+inline fmi3Status fmi3(Status status) { return static_cast<fmi3Status>(status); }
 
 /// `act` on each value of each variable, of which there must be n_values.
 template <class Act>
@@ -32,12 +30,6 @@ fmi3Status each_value(fmi3Instance instance, const Call& call, const fmi3ValueRe
     return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       return (of.*act)(variable, point, values[k]);
     });
-  }));
-}
-
-inline fmi3Status no_variable_of(fmi3Instance instance, std::size_t nvr, const char* type) {
-  return fmi3(guarded(instance, [&](Instance& of) {
-    return nvr == 0 ? Status::ok : of.error(std::string("there is no variable of type ") + type);
   }));
 }
 
@@ -134,11 +126,11 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3V
 #define ASPERITY_FMU_NO_VARIABLE(type)                                                                             \
   ASPERITY_FMU_EXPORT fmi3Status fmi3Get##type(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, \
                                                fmi3##type[], std::size_t) {                                        \
-    return no_variable_of(instance, nvr, #type);                                                                   \
+    return fmi3(no_variable_of(instance, nvr, #type));                                                             \
   }                                                                                                                \
   ASPERITY_FMU_EXPORT fmi3Status fmi3Set##type(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, \
                                                const fmi3##type[], std::size_t) {                                  \
-    return no_variable_of(instance, nvr, #type);                                                                   \
+    return fmi3(no_variable_of(instance, nvr, #type));                                                             \
   }
 ASPERITY_FMU_NO_VARIABLE(Float32)
 ASPERITY_FMU_NO_VARIABLE(Int8)
@@ -152,23 +144,23 @@ ASPERITY_FMU_NO_VARIABLE(String)
 #undef ASPERITY_FMU_NO_VARIABLE
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                             const fmi3Int32[], std::size_t) {
-  return no_variable_of(instance, nvr, "Int32 that can be set");
+  return fmi3(no_variable_of(instance, nvr, "Int32 that can be set"));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                              std::size_t[], fmi3Binary[], std::size_t) {
-  return no_variable_of(instance, nvr, "Binary");
+  return fmi3(no_variable_of(instance, nvr, "Binary"));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                              const std::size_t[], const fmi3Binary[], std::size_t) {
-  return no_variable_of(instance, nvr, "Binary");
+  return fmi3(no_variable_of(instance, nvr, "Binary"));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                             fmi3Clock[]) {
-  return no_variable_of(instance, nvr, "Clock");
+  return fmi3(no_variable_of(instance, nvr, "Clock"));
 }
 ASPERITY_FMU_EXPORT fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
                                             const fmi3Clock[]) {
-  return no_variable_of(instance, nvr, "Clock");
+  return fmi3(no_variable_of(instance, nvr, "Clock"));
 }
 
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
@@ -217,7 +209,7 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 fro
     const Status status = of.step(from, size);
     for (fmi3Boolean* const answer : {event, terminate, early})
       if (answer != nullptr) *answer = false;
-    if (reached != nullptr) *reached = of.model->state().time;
+    if (reached != nullptr) *reached = of.model->state().settings.time;
     return status;
   }));
 }

@@ -12,35 +12,6 @@
 
 namespace asperity_fmu {
 
-// The state as bytes: numbers of this machine, since a state is read by the program that wrote it.
-
-struct Head {
-  double points, time, a_T, clamp, memory;
-};
-
-inline std::size_t size_in_bytes(const State& state) { return sizeof(Head) + state.points.size() * sizeof(Point); }
-
-inline void to_bytes(const State& state, char* bytes) {
-  const Head head{static_cast<double>(state.points.size()), state.time, state.a_T, state.clamp ? 1.0 : 0.0,
-                  state.memory ? 1.0 : 0.0};
-  std::memcpy(bytes, &head, sizeof head);
-  std::memcpy(bytes + sizeof head, state.points.data(), state.points.size() * sizeof(Point));
-}
-
-/// False where they are not those of a state of as many points.
-inline bool from_bytes(const char* bytes, std::size_t size, State& state) {
-  if (size != size_in_bytes(state)) return false;
-  Head head{};
-  std::memcpy(&head, bytes, sizeof head);
-  if (head.points != static_cast<double>(state.points.size())) return false;
-  std::memcpy(state.points.data(), bytes + sizeof head, state.points.size() * sizeof(Point));
-  state.time = head.time;
-  state.a_T = head.a_T;
-  state.clamp = head.clamp != 0;
-  state.memory = head.memory != 0;
-  return true;
-}
-
 /// The categories of messages, as modelDescription.xml lists them.
 constexpr const char *warnings = "logStatusWarning", *errors = "logStatusError";
 
@@ -119,7 +90,7 @@ struct Instance {
     } else if (!warned) {
       warned = true;
       if (tell && tells_warnings)
-        tell(Status::warning, model->state().clamp
+        tell(Status::warning, model->state().settings.clamp != 0
                                   ? "a point lies outside of the map: mu is that of the map's nearest point"
                                   : "a point lies outside of the map: mu is NaN");
     }
@@ -128,7 +99,7 @@ struct Instance {
 
   [[nodiscard]] Status get(std::uint32_t variable, std::size_t point, double& value) {
     if (variable == inside) return error("`inside` is an integer");
-    const Status status = model->get(variable, point, value);
+    const Status status = is_switch(variable) ? Status::error : model->get(variable, point, value);
     return status == Status::error ? error("value reference " + std::to_string(variable) + " is no number to be read")
                                    : status;
   }
@@ -142,22 +113,22 @@ struct Instance {
   }
 
   [[nodiscard]] Status set(std::uint32_t variable, std::size_t point, double value) {
-    return model->set(variable, point, value)
+    return !is_switch(variable) && model->set(variable, point, value)
                ? Status::ok
                : error("value reference " + std::to_string(variable) + " is no input: it cannot be set");
   }
 
   template <class Boolean>
   [[nodiscard]] Status get_switch(std::uint32_t variable, std::size_t point, Boolean& on) {
-    bool found = false;
-    if (!model->get_switch(variable, point, found))
+    double number = 0;
+    if (!is_switch(variable) || model->get(variable, point, number) == Status::error)
       return error("value reference " + std::to_string(variable) + " is no Boolean");
-    on = found;
+    on = number != 0;
     return Status::ok;
   }
 
   [[nodiscard]] Status set_switch(std::uint32_t variable, std::size_t point, bool on) {
-    return model->set_switch(variable, point, on)
+    return is_switch(variable) && model->set(variable, point, on ? 1 : 0)
                ? Status::ok
                : error("value reference " + std::to_string(variable) + " is no Boolean that can be set");
   }
@@ -198,24 +169,31 @@ struct Instance {
     return Status::ok;
   }
 
+  // As bytes, numbers of this machine, since a state is read by the program that wrote it.
+
+  [[nodiscard]] std::size_t bytes() const { return sizeof(Settings) + model->points() * sizeof(Point); }
+
   Status size_of(const void* kept, std::size_t& size) const {
     if (kept == nullptr) return error("there is no state to be written");
-    size = size_in_bytes(*static_cast<const State*>(kept));
+    size = bytes();
     return Status::ok;
   }
 
-  Status write(const void* kept, void* bytes, std::size_t size) const {
+  Status write(const void* kept, void* to, std::size_t size) const {
     std::size_t needed = 0;
     if (size_of(kept, needed) != Status::ok) return Status::error;
     if (size < needed) return error("a state needs " + std::to_string(needed) + " bytes");
-    to_bytes(*static_cast<const State*>(kept), static_cast<char*>(bytes));
+    const State& state = *static_cast<const State*>(kept);
+    std::memcpy(to, &state.settings, sizeof(Settings));
+    std::memcpy(static_cast<char*>(to) + sizeof(Settings), state.points.data(), needed - sizeof(Settings));
     return Status::ok;
   }
 
-  Status read(const void* bytes, std::size_t size, void** kept) const {
+  Status read(const void* from, std::size_t size, void** kept) const {
+    if (size != bytes()) return error("the bytes are not those of a state of this FMU");
     State state = model->state();
-    if (!from_bytes(static_cast<const char*>(bytes), size, state))
-      return error("the bytes are not those of a state of this FMU");
+    std::memcpy(&state.settings, from, sizeof(Settings));
+    std::memcpy(state.points.data(), static_cast<const char*>(from) + sizeof(Settings), size - sizeof(Settings));
     if (*kept == nullptr) *kept = new State;
     *static_cast<State*>(*kept) = std::move(state);
     return Status::ok;
@@ -259,6 +237,13 @@ Status guarded(void* instance, const Call& call, Function function) {
   return guarded(instance, [&](Instance& of) {
     const Status status = of.allow(call);
     return status == Status::ok ? function(of) : status;
+  });
+}
+
+/// An error where the host asks for variables of a type that there is none of.
+inline Status no_variable_of(void* instance, std::size_t n, const char* type) {
+  return guarded(instance, [&](Instance& of) {
+    return n == 0 ? Status::ok : of.error(std::string("there is no variable of type ") + type);
   });
 }
 

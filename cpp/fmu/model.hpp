@@ -52,17 +52,26 @@ constexpr std::uint32_t stride = 32, first_output = mu, last_output = lateral_tr
 inline bool is_of_a_point(std::uint32_t variable) {
   return (variable >= pressure && variable <= direction) || (variable >= first_output && variable <= last_output);
 }
+inline bool is_switch(std::uint32_t variable) { return variable == reset || variable == clamp || variable == memory; }
 inline bool is_real_output(std::uint32_t variable) {
   return (variable >= first_output && variable < inside) || variable == lateral || variable == lateral_traction;
 }
 
-/// Numbers alone, since they are written as such.
+// All that changes in an instance, what get and set of its state keep: numbers alone, since they are written as such.
+
 struct Point {
   double pressure = 0, velocity = 0, temperature = 0;
   double distance = 0, sign = 0;  // slid since rest [m], and which way
   double reset = 0, direction = 0;
 };
-static_assert(sizeof(Point) == 7 * sizeof(double));
+struct Settings {
+  double time = 0, a_T = 1, clamp = 1, memory = 1;
+};
+struct State {
+  Settings settings;
+  std::vector<Point> points;
+};
+static_assert(sizeof(Point) == 7 * sizeof(double) && sizeof(Settings) == 4 * sizeof(double));
 
 /// Empty where it cannot be read. Streams would make the FMU three times as large.
 inline std::string read_file(const std::filesystem::path& path) {
@@ -89,14 +98,8 @@ inline std::size_t points_of(const std::string& token) {
                                 : std::strtoull(token.substr(token.size() - digits - 1, digits).c_str(), nullptr, 16);
 }
 
-/// All that changes in an instance: what get and set of its state keep.
-struct State {
-  std::vector<Point> points;
-  double time = 0, a_T = 1;
-  bool clamp = true, memory = true;
-};
-
-enum class Status { ok, warning, error };
+/// With the numbers of both standards.
+enum class Status { ok = 0, warning = 1, error = 3 };
 
 class Model {
  public:
@@ -146,7 +149,7 @@ class Model {
     state_ = std::move(state);
     found_.assign(points(), {});
   }
-  void set_time(double now) { state_.time = now; }
+  void set_time(double now) { state_.settings.time = now; }
 
   /// False where the map has no such variable.
   [[nodiscard]] bool has(std::uint32_t variable) const {
@@ -158,37 +161,15 @@ class Model {
     return variable != a_T || !info.heat;
   }
 
-  /// False where there is no such switch.
-  bool set_switch(std::uint32_t variable, std::size_t point, bool on) {
-    if (!has(variable)) return false;
-    if (variable == reset)
-      state_.points[point].reset = on ? 1 : 0;
-    else if (variable == clamp)
-      state_.clamp = on;
-    else if (variable == memory)
-      state_.memory = on;
-    else
-      return false;
-    if (variable != reset) found_.assign(points(), {});
-    return true;
-  }
-  bool get_switch(std::uint32_t variable, std::size_t point, bool& on) const {
-    if (!has(variable) || !(variable == reset || variable == clamp || variable == memory)) return false;
-    on = variable == reset ? state_.points[point].reset != 0 : variable == clamp ? state_.clamp : state_.memory;
-    return true;
-  }
-
-  /// False where it cannot be set.
+  /// False where it cannot be set. Switches are on where they are not 0.
   bool set(std::uint32_t variable, std::size_t point, double value) {
-    if (!has(variable)) return false;
-    if (variable == a_T) {
-      state_.a_T = value;
+    double* const number = number_of(variable, point);
+    if (number == nullptr || variable == time || variable == slid_distance) return false;
+    *number = value;
+    if (is_of_a_point(variable))
+      found_[point].known = false;
+    else
       found_.assign(points(), {});
-      return true;
-    }
-    if (variable == slid_distance || number_of(variable) == nullptr) return false;
-    state_.points[point].*number_of(variable) = value;
-    found_[point].known = false;
     return true;
   }
 
@@ -196,23 +177,21 @@ class Model {
   /// that of the nearest point of the box.
   Status get(std::uint32_t variable, std::size_t point, double& value) {
     if (!has(variable)) return Status::error;
-    if (number_of(variable) != nullptr || variable == time || variable == a_T || variable == max_error) {
-      value = number_of(variable) != nullptr ? state_.points[point].*number_of(variable)
-              : variable == time             ? state_.time
-              : variable == a_T              ? state_.a_T
-                                             : map_.info().max_error;
-      return Status::ok;
+    if (variable >= first_output && variable <= last_output && variable != slid_distance) {
+      Found& found = found_[point];
+      if (!found.known) found = look_up(state_.points[point]);
+      value = found.values[variable - first_output];
+      return found.values[inside - first_output] == 1 ? Status::ok : Status::warning;
     }
-    if (variable < first_output || variable > last_output) return Status::error;
-    Found& found = found_[point];
-    if (!found.known) found = look_up(state_.points[point]);
-    value = found.values[variable - first_output];
-    return found.values[inside - first_output] == 1 ? Status::ok : Status::warning;
+    const double* const number = number_of(variable, point);
+    if (number == nullptr && variable != max_error) return Status::error;
+    value = number == nullptr ? map_.info().max_error : *number;
+    return Status::ok;
   }
 
   /// A warning where a point lies outside.
   Status step(double from, double size) {
-    state_.time = from + size;
+    set_time(from + size);
     Status status = Status::ok;
     if (map_.info().heat)
       for (std::size_t i = 0; i < points(); ++i) slide(i, size);
@@ -235,11 +214,15 @@ class Model {
     if (output == mu && input == velocity) return value(here, dmu_dlnv) / at.velocity;
     if (output == traction && input == pressure) return sign * (value(here, mu) + value(here, dmu_dlnp));
     if (output == traction && input == velocity) return sign * at.pressure * value(here, dmu_dlnv) / at.velocity;
+    double Point::*const of = input == pressure      ? &Point::pressure
+                              : input == velocity    ? &Point::velocity
+                              : input == temperature ? &Point::temperature
+                                                     : &Point::direction;
     double x[2], f[2];
     for (int side = 0; side < 2; ++side) {
       const double step = side == 0 ? -1e-5 : 1e-5;
       Point moved = at;
-      double& changed = moved.*number_of(input);
+      double& changed = moved.*of;
       const double before = changed;
       changed = input == direction ? before + step : before * std::exp(step);
       Found found = look_up(moved);
@@ -256,22 +239,18 @@ class Model {
  private:
   static constexpr std::size_t most_points = 1000000;
 
-  /// The number of a point that a variable is; null: it is none that a point keeps.
-  static double Point::*number_of(std::uint32_t variable) {
-    switch (variable) {
-      case pressure:
-        return &Point::pressure;
-      case velocity:
-        return &Point::velocity;
-      case temperature:
-        return &Point::temperature;
-      case direction:
-        return &Point::direction;
-      case slid_distance:
-        return &Point::distance;
-      default:
-        return nullptr;
-    }
+  /// Where the state has a variable; null where it has none.
+  double* number_of(std::uint32_t variable, std::size_t point) {
+    Point& at = state_.points[point];
+    Settings& settings = state_.settings;
+    const std::pair<std::uint32_t, double*> numbers[] = {{time, &settings.time},     {a_T, &settings.a_T},
+                                                         {clamp, &settings.clamp},   {memory, &settings.memory},
+                                                         {pressure, &at.pressure},   {velocity, &at.velocity},
+                                                         {reset, &at.reset},         {temperature, &at.temperature},
+                                                         {direction, &at.direction}, {slid_distance, &at.distance}};
+    for (const auto& [name, number] : numbers)
+      if (name == variable && has(variable)) return number;
+    return nullptr;
   }
 
   struct Found {
@@ -290,20 +269,21 @@ class Model {
 
   [[nodiscard]] Found look_up(const Point& at) const {
     using Map = asperity::FrictionMap;
-    const Map::Outside outside = state_.clamp ? Map::Outside::clamp : Map::Outside::nan;
+    const Map::Outside outside = state_.settings.clamp != 0 ? Map::Outside::clamp : Map::Outside::nan;
     asperity::MapPoint found;
     asperity::MapTemperature heat;
-    heat.a_T = state_.a_T;
+    heat.a_T = state_.settings.a_T;
     if (map_.info().temperatures > 1) heat.background = at.temperature;
-    if (map_.info().heat && state_.memory) heat.distance = at.distance;
+    if (map_.info().heat && state_.settings.memory != 0) heat.distance = at.distance;
     heat.direction = at.direction;
     const Map::Status status = map_.at(at.pressure, at.velocity, found, outside, heat);
-    const double pull = map_.traction(at.pressure, at.velocity, outside, heat);
-    const double inside_box = status == Map::Status::ok ? 1 : 0, slid = at.distance;
-    const double sign = at.velocity < 0 ? -1 : 1;
-    const double across = at.pressure <= 0 || at.velocity == 0 ? 0 : sign * found.lateral * at.pressure;
+    const double inside_box = status == Map::Status::ok ? 1 : 0, sign = at.velocity < 0 ? -1 : 1;
+    const bool is_number = !std::isnan(at.pressure) && !std::isnan(at.velocity);
+    const bool is_free = is_number && (at.pressure <= 0 || at.velocity == 0);  // no traction, whatever the map's box
+    const double load = sign * at.pressure;
+    const double pull = is_free ? 0 : found.mu * load, across = is_free ? 0 : found.lateral * load;
     return {{found.mu, found.hysteresis, found.adhesion, found.contact_area, pull, found.dmu_dlnp, found.dmu_dlnv,
-             inside_box, slid, found.lateral, across},
+             inside_box, at.distance, found.lateral, across},
             true};
   }
 
