@@ -248,10 +248,29 @@ inline const double* numbers(const std::vector<Line>& of) noexcept {
   return reinterpret_cast<const double*>(of.data());
 }
 
+/// Equal steps of a coordinate, from 0 to `last`.
+struct Steps {
+  double per_unit = 0;
+  std::int64_t last = 0;
+
+  /// Which of them, the first or the last one beyond all, and the share of it, so far from where they begin. The loader
+  /// has seen to it that numbers of steps are far below the largest integer.
+  ASPERITY_MAP_INLINE std::int64_t at(double from_first, double& share) const noexcept {
+    share = from_first * per_unit;
+    auto i = static_cast<std::int64_t>(share);
+    i = i < 0 ? 0 : i > last ? last : i;
+    share -= static_cast<double>(i);
+    return i;
+  }
+};
+
 struct Grid {
-  double x, z, columns_per_x, rows_per_z;
-  std::uint32_t columns, rows, first;
-  std::int64_t last_column, last_row;
+  double x, z;
+  Steps columns, rows;
+  std::uint32_t first;
+  [[nodiscard]] std::uint64_t entries() const noexcept {
+    return static_cast<std::uint64_t>(columns.last + 1) * static_cast<std::uint64_t>(rows.last + 1);
+  }
 };
 
 class Reader;
@@ -320,7 +339,7 @@ class FrictionMap {
     const double adhesion = log_adhesion(ln_p, takes_shifted(temperature) ? x : map_detail::ln(speed));
     if (!remembers(temperature)) return mu_of(functions(place(x, ln_p, third)), adhesion);
     // what waits for the memory longest comes first: the processor has the hot map's polynomials to sum meanwhile
-    const double length = log_sliding_length(sliding_rows(third), x);
+    const double length = log_sliding_length(x, third);
     const Pair cold = functions(cold_->place(cold_x(x, third), ln_p, {})), hot = functions(place(x, ln_p, third));
     const Pair begun = map_detail::exp(Pair{-length, cold[0]});
     const Pair last = map_detail::exp(Pair{-(temperature.distance * begun[0]), cold[1] + adhesion});
@@ -344,7 +363,7 @@ class FrictionMap {
   Status at(double pressure, double velocity, MapPoint& point, Outside outside = Outside::nan,
             const MapTemperature& temperature = {}) const noexcept {
     const Where at = where(pressure, velocity, outside, temperature);
-    if (at.cell == nullptr) {
+    if (at.place.coefficients == nullptr) {
       const double nan = std::numeric_limits<double>::quiet_NaN();
       point = {nan, nan, nan, nan, nan, nan, nan};
       return at.status;
@@ -353,11 +372,10 @@ class FrictionMap {
     if (!remembers(temperature)) return at.status;
     Where in_cold = at;
     in_cold.x = cold_x(at.x, at.third);
-    in_cold.cell = cold_->find(in_cold.x, at.ln_p, in_cold.third, in_cold.dx, in_cold.dz, in_cold.slope);
+    in_cold.place = cold_->place(in_cold.x, at.ln_p, {}, nullptr, &in_cold.offset_slope);
     const MapPoint cold = cold_->everything(in_cold);
     double slope = 0;
-    const double lengths =
-        temperature.distance * map_detail::exp(-log_sliding_length(sliding_rows(at.third), at.x, &slope));
+    const double lengths = temperature.distance * map_detail::exp(-log_sliding_length(at.x, at.third, &slope));
     const double share = map_detail::exp(-lengths),
                  by_v = at.free_v ? share * lengths * slope * (cold.mu - point.mu) : 0;
     for (double MapPoint::*const number :
@@ -373,8 +391,8 @@ class FrictionMap {
   [[nodiscard]] double sliding_length(double velocity, double background = 0,
                                       Outside outside = Outside::nan) const noexcept {
     const Where at = where(info_.pressure[0], velocity, outside, {1, false, background, map_detail::long_slid});
-    if (at.cell == nullptr || !info_.heat) return std::numeric_limits<double>::quiet_NaN();
-    return map_detail::exp(log_sliding_length(sliding_rows(at.third), at.x));
+    if (at.place.coefficients == nullptr || !info_.heat) return std::numeric_limits<double>::quiet_NaN();
+    return map_detail::exp(log_sliding_length(at.x, at.third));
   }
 
   /// Shear traction sign(v) mu p [Pa]; 0 at rest and without load.
@@ -412,15 +430,6 @@ class FrictionMap {
     double log_a_T = 0;       // of a slanted map
   };
 
-  struct Where {
-    const double* cell = nullptr;
-    double x = 0, dx = 0, dz = 0, slope = 0;  // s'(x)
-    double ln_p = 0, ln_v = 0;                // as the adhesion takes them
-    Third third;
-    Status status = Status::ok;
-    bool free_p = true, free_v = true;  // not held at a side of the box
-  };
-
   /// Polynomials of cells at the one T0 of a call, which points that follow share.
   struct CellsAtT0 {
     static constexpr std::size_t size = 128;
@@ -428,7 +437,8 @@ class FrictionMap {
     alignas(16) double coefficients[size][32];
 
     const double* at(const double* of, const Third& third) noexcept {
-      const std::size_t slot = (reinterpret_cast<std::uintptr_t>(of) >> 10) % size;
+      const std::uint64_t scattered = std::uint64_t{reinterpret_cast<std::uintptr_t>(of) / 1024} * 0x9e3779b97f4a7c15;
+      const std::uint64_t slot = (scattered >> 32) % size;
       if (cell[slot] != of) to_temperature(of + 128 * third.step, third.d, coefficients[slot]);
       cell[slot] = of;
       return coefficients[slot];
@@ -441,19 +451,16 @@ class FrictionMap {
     double dx, dz, t;
     bool is_over_three;
   };
-  ASPERITY_MAP_INLINE Place place(double x, double ln_p, Third third, CellsAtT0* cells = nullptr) const noexcept {
-    Place at{};
-    double slope = 0;
-    at.coefficients = find(x, ln_p, third, at.dx, at.dz, slope);
-    if (cells != nullptr) {
-      at.coefficients = cells->at(at.coefficients, third);
-    } else if (steps_ > 0) {
-      at.coefficients += 128 * third.step;
-      at.t = third.d;
-      at.is_over_three = true;
-    }
-    return at;
-  }
+
+  /// A point that was looked for, without a place where there is no value.
+  struct Where {
+    Place place{};
+    double x = 0, ln_p = 0, ln_v = 0;  // ln_v as the adhesion takes it
+    double offset_slope = 0;           // s'(x)
+    Third third;
+    Status status = Status::ok;
+    bool free_p = true, free_v = true;  // not held at a side of the box
+  };
 
   /// ln mu_H and ln A/A0.
   ASPERITY_MAP_INLINE static map_detail::Pair functions(const Place& at) noexcept {
@@ -488,7 +495,6 @@ class FrictionMap {
     using map_detail::Pair;
     const bool usual = is_usual(temperature), memory = usual && remembers(temperature);
     const Third third = usual ? third_at(temperature.background) : Third{};
-    const SlidingRows rows = memory ? sliding_rows(third) : SlidingRows{};
     std::size_t point[together];
     double speed[together], x[together], ln_p[together], adhesion[together];
     Pair hot[together], cold[together], begun[together];
@@ -514,7 +520,7 @@ class FrictionMap {
       for (std::size_t k = 0; k < inside && !memory; ++k) result[point[k]] = sum_of(hot[k]);
       if (!memory) continue;
       double* const length = speed;
-      for (std::size_t k = 0; k < inside; ++k) length[k] = log_sliding_length(rows, x[k]);
+      for (std::size_t k = 0; k < inside; ++k) length[k] = log_sliding_length(x[k], third);
       for (std::size_t k = 0; k < inside; ++k) x[k] = cold_x(x[k], third);
       cold_->functions(inside, x, ln_p, {}, nullptr, cold);
       for (std::size_t k = 0; k < inside; ++k) begun[k] = Pair{-length[k], cold[k][0]};
@@ -527,9 +533,9 @@ class FrictionMap {
     }
   }
   ASPERITY_MAP_APART void functions(std::size_t n, const double* x, const double* ln_p, const Third& third,
-                                    CellsAtT0* cells, map_detail::Pair* f) const noexcept {
+                                    CellsAtT0* summed, map_detail::Pair* f) const noexcept {
     Place at[together];
-    for (std::size_t k = 0; k < n; ++k) at[k] = place(x[k], ln_p[k], third, cells);
+    for (std::size_t k = 0; k < n; ++k) at[k] = place(x[k], ln_p[k], third, summed);
     for (std::size_t k = 0; k < n; ++k) f[k] = functions(at[k]);
   }
   ASPERITY_MAP_APART static void exps(std::size_t n, map_detail::Pair* x) noexcept {
@@ -540,8 +546,8 @@ class FrictionMap {
     using map_detail::Pair;
     using map_detail::pair;
     alignas(16) double room[32];
-    const double *c = at.cell, x = at.dx, z = at.dz;
-    if (steps_ > 0) c = to_temperature(c + 128 * at.third.step, at.third.d, room);
+    const auto [coefficients, x, z, t, is_over_three] = at.place;
+    const double* const c = is_over_three ? to_temperature(coefficients, t, room) : coefficients;
     const Pair f = bicubic(c, x, z, Plain{});
     Pair fx{0, 0}, fz{0, 0};
     for (int j = 4; j-- > 0;) {
@@ -549,7 +555,7 @@ class FrictionMap {
       fx = fx * z + (pair(r + 2) + (pair(r + 4) * 2 + pair(r + 6) * (x * 3)) * x);
       if (j > 0) fz = fz * z + (pair(r) + (pair(r + 2) + (pair(r + 4) + pair(r + 6) * x) * x) * x) * j;
     }
-    fx = fx + fz * -at.slope;  // at a constant pressure
+    fx = fx + fz * -at.offset_slope;  // at a constant pressure
     if (is_slanted_) to_velocity(at, fx, fz);
     MapPoint point{};
     point.hysteresis = info_.hysteresis ? map_detail::exp(f[0]) : 0;
@@ -567,13 +573,11 @@ class FrictionMap {
   /// Of a slanted map: from slopes over ln p and over ln v a_T to those over ln v, at a constant T0, and ln p.
   void to_velocity(const Where& at, map_detail::Pair& fx, map_detail::Pair& fz) const noexcept {
     using map_detail::pair;
-    const double t = at.third.d;
-    const auto by_share = [t](const double* c) {
+    const auto by_share = [t = at.place.t](const double* c) {
       return pair(c + 32) + (pair(c + 64) * 2 + pair(c + 96) * (t * 3)) * t;
     };
-    const double* const c = at.cell + 128 * at.third.step;
-    const map_detail::Pair by_p = fx;
-    fx = fz + bicubic(c, at.dx, at.dz, by_share) * slope_of_share(at.x, at.third.log_a_T);
+    const map_detail::Pair by_p = fx, along = bicubic(at.place.coefficients, at.place.dx, at.place.dz, by_share);
+    fx = fz + along * slope_of_share(at.x, at.third.log_a_T);
     fz = by_p;
   }
 
@@ -610,30 +614,16 @@ class FrictionMap {
     return (row(c) + row(c + 8) * z) + (row(c + 16) + row(c + 24) * z) * z2;
   }
 
-  /// Cubics of ln s0 over a share of a step of x: four coefficients in the row below a T0, by how much those in the
-  /// row above differ, and the share of it.
-  struct SlidingRows {
-    const double* cubics;
-    double share;
-  };
-  [[nodiscard]] ASPERITY_MAP_INLINE SlidingRows sliding_rows(const Third& third) const noexcept {
-    if (steps_ == 0) return {map_detail::numbers(sliding_), 0};
-    const double row = (third.value - info_.temperature[0]) * rows_per_T_;
-    const std::int64_t j = index(row, last_row_);
-    return {map_detail::numbers(sliding_) + row_size_ * j, row - static_cast<double>(j)};
-  }
-
-  /// ln s0 at an x, and its slope.
-  [[nodiscard]] ASPERITY_MAP_INLINE double log_sliding_length(const SlidingRows& rows, double x,
+  /// ln s0, and its slope: cubics over shares of steps of x, and between the rows of two T0 what is in their middle.
+  [[nodiscard]] ASPERITY_MAP_INLINE double log_sliding_length(double x, const Third& third,
                                                               double* slope = nullptr) const noexcept {
     using map_detail::Pair;
     using map_detail::pair;
-    const double column = (x - offset_x_) * sliding_per_x_;
-    const std::int64_t i = index(column, last_column_);
-    const double* const c = rows.cubics + 8 * i;
-    const double t = column - static_cast<double>(i);
-    const Pair low = pair(c) + pair(c + 4) * rows.share, high = pair(c + 2) + pair(c + 6) * rows.share;
-    if (slope != nullptr) *slope = (low[1] + t * (2 * high[0] + t * 3 * high[1])) * sliding_per_x_;
+    double t = 0, share = 0;
+    const std::int64_t i = sliding_x_.at(x - first_x_, t), j = sliding_T_.at(third.value - info_.temperature[0], share);
+    const double* const c = map_detail::numbers(sliding_) + row_size_ * j + 8 * i;
+    const Pair low = pair(c) + pair(c + 4) * share, high = pair(c + 2) + pair(c + 6) * share;
+    if (slope != nullptr) *slope = (low[1] + t * (2 * high[0] + t * 3 * high[1])) * sliding_x_.per_unit;
     return (low[0] + low[1] * t) + (high[0] + high[1] * t) * (t * t);
   }
 
@@ -645,8 +635,9 @@ class FrictionMap {
   /// ln of a_T v on the map without heat.
   [[nodiscard]] ASPERITY_MAP_INLINE double cold_x(double x, const Third& third) const noexcept {
     if (steps_ == 0) return x;
-    const double log_a_T = is_slanted_ ? third.log_a_T : cubic(shift_.data() + 4 * third.step, third.d * steps_per_T_);
-    const double shifted = x + log_a_T, first = cold_->offset_x_, last = cold_->last_x_;
+    const double log_a_T =
+        is_slanted_ ? third.log_a_T : cubic(shift_.data() + 4 * third.step, third.d * third_.per_unit);
+    const double shifted = x + log_a_T, first = cold_->first_x_, last = cold_->last_x_;
     return shifted < first ? first : shifted > last ? last : shifted;  // by rounding
   }
 
@@ -654,12 +645,6 @@ class FrictionMap {
   [[nodiscard]] double log_adhesion(double ln_p, double ln_v) const noexcept {
     const double off = ln_v - ln_reference_;
     return ln_shear_stress_ - ln_p - width_ * off * off;
-  }
-
-  /// The loader has seen to it that `at` is far below the largest integer.
-  ASPERITY_MAP_INLINE static std::int64_t index(double at, std::int64_t last) noexcept {
-    const auto i = static_cast<std::int64_t>(at);
-    return i < 0 ? 0 : i > last ? last : i;
   }
 
   [[nodiscard]] Where where(double pressure, double velocity, Outside outside,
@@ -671,7 +656,7 @@ class FrictionMap {
     at.x = map_detail::ln(shifted);
     at.ln_p = map_detail::ln(pressure);
     at.ln_v = takes_shifted(temperature) ? at.x : map_detail::ln(speed);
-    at.cell = find(at.x, at.ln_p, at.third, at.dx, at.dz, at.slope);
+    at.place = place(at.x, at.ln_p, at.third, nullptr, &at.offset_slope);
     return at;
   }
 
@@ -741,14 +726,18 @@ class FrictionMap {
   ASPERITY_MAP_INLINE Third third_at(double value) const noexcept {
     Third third;
     third.value = value;
-    const double from = value - info_.temperature[0];
-    if (is_slanted_) {
-      third.log_a_T = shift_[0] * from / (1 + shift_[1] * from);
-    } else if (steps_ > 0) {
-      third.step = index(from * steps_per_T_, last_step_);
-      third.d = from - static_cast<double>(third.step) * step_of_T_;
-    }
+    const double from_first = value - info_.temperature[0];
+    if (is_slanted_)
+      third.log_a_T = shift_[0] * from_first / (1 + shift_[1] * from_first);
+    else if (steps_ > 0)
+      set_step(from_first, third);
     return third;
+  }
+
+  ASPERITY_MAP_INLINE void set_step(double from_first, Third& third) const noexcept {
+    double share = 0;
+    third.step = third_.at(from_first, share);
+    third.d = from_first - static_cast<double>(third.step) * step_of_third_;
   }
 
   /// How far it is along the line of constant v a_T from its lower end and from its upper one.
@@ -757,7 +746,7 @@ class FrictionMap {
     [[nodiscard]] double length() const noexcept { return above + below; }
   };
   [[nodiscard]] ASPERITY_MAP_INLINE Way way_of(double x, double log_a_T) const noexcept {
-    return {least(last_x_ - x, log_a_T - log_a_T_[0]), least(x - offset_x_, log_a_T_[1] - log_a_T)};
+    return {least(last_x_ - x, log_a_T - log_a_T_[0]), least(x - first_x_, log_a_T_[1] - log_a_T)};
   }
   /// The smaller one, but not below 0 by rounding.
   static double least(double a, double b) noexcept {
@@ -769,7 +758,7 @@ class FrictionMap {
   [[nodiscard]] double slope_of_share(double x, double log_a_T) const noexcept {
     std::size_t band = 0;
     while (x + log_a_T >= ends_[band]) ++band;
-    const bool is_wide = last_x_ - offset_x_ > log_a_T_[1] - log_a_T_[0];
+    const bool is_wide = last_x_ - first_x_ > log_a_T_[1] - log_a_T_[0];
     const bool from_v = band >= (is_wide ? 2 : 1), to_v = band < (is_wide ? 1 : 2);
     const Way way = way_of(x, log_a_T);
     constexpr double rounding = 1e-14;  // at the two ends of z there is no way, and nothing changes along it
@@ -785,31 +774,32 @@ class FrictionMap {
   double log_modulus_offset(double x, double& slope) const noexcept {
     slope = 0;
     if (offset_.empty()) return 0;
-    const double scaled = (x - offset_x_) * offset_per_x_;
-    const std::int64_t i = index(scaled, last_offset_);
-    const double* const c = offset_.data() + 4 * i;
-    const double t = scaled - static_cast<double>(i);
-    slope = (c[1] + t * (2 * c[2] + t * 3 * c[3])) * offset_per_x_;
+    double t = 0;
+    const double* const c = offset_.data() + 4 * offset_steps_.at(x - first_x_, t);
+    slope = (c[1] + t * (2 * c[2] + t * 3 * c[3])) * offset_steps_.per_unit;
     return cubic(c, t);
   }
 
-  /// The cell of a point, how far it is from its corner, and s'(x); of a slanted map where on the third axis too.
-  ASPERITY_MAP_INLINE const double* find(double x, double ln_p, Third& third, double& dx, double& dz,
-                                         double& slope) const noexcept {
-    if (!is_slanted_) return cell_at(x, ln_p - log_modulus_offset(x, slope), dx, dz);
-    const Way way = way_of(x, third.log_a_T);
-    // where there is no way, that side of it on which the point's T0 is
-    const double nothing = 1e-300, is_last = third.log_a_T >= log_a_T_[1] ? nothing : 0;
-    const double share = (way.above + is_last) / (way.length() + nothing);
-    third.step = index(share * steps_, last_step_);
-    third.d = share - static_cast<double>(third.step) * step_of_share_;
-    return cell_at(ln_p, x + third.log_a_T, dx, dz);
-  }
-  ASPERITY_MAP_INLINE const double* cell_at(double x, double z, double& dx, double& dz) const noexcept {
-    const std::size_t entry = entry_at(x, z);
-    dx = x - corners_[2 * entry];
-    dz = z - corners_[2 * entry + 1];
-    return cells() + entry * cell_size_;
+  ASPERITY_MAP_INLINE Place place(double x, double ln_p, Third third, CellsAtT0* summed = nullptr,
+                                  double* offset_slope = nullptr) const noexcept {
+    double first = x, second = 0, slope = 0;
+    if (is_slanted_) {
+      const Way way = way_of(x, third.log_a_T);
+      // where there is no way, that side of it on which the point's T0 is
+      const double nothing = 1e-300, is_last = third.log_a_T >= log_a_T_[1] ? nothing : 0;
+      set_step((way.above + is_last) / (way.length() + nothing), third);
+      first = ln_p;
+      second = x + third.log_a_T;
+    } else {
+      second = ln_p - log_modulus_offset(x, slope);
+    }
+    if (offset_slope != nullptr) *offset_slope = slope;
+    const std::size_t entry = entry_at(first, second);
+    const double* const cell = cells() + entry * cell_size_;
+    const double dx = first - corners_[2 * entry], dz = second - corners_[2 * entry + 1];
+    if (steps_ == 0) return {cell, dx, dz, 0, false};
+    if (summed != nullptr) return {summed->at(cell, third), dx, dz, 0, false};
+    return {cell + 128 * third.step, dx, dz, third.d, true};
   }
 
   [[nodiscard]] const double* cells() const noexcept { return map_detail::numbers(cells_); }
@@ -826,9 +816,9 @@ class FrictionMap {
   }
 
   static std::size_t entry_of(const map_detail::Grid& grid, double x, double z) noexcept {
-    const std::int64_t column = index((x - grid.x) * grid.columns_per_x, grid.last_column);
-    return grid.first + static_cast<std::size_t>(column * (grid.last_row + 1) +
-                                                 index((z - grid.z) * grid.rows_per_z, grid.last_row));
+    double share = 0;
+    const std::int64_t column = grid.columns.at(x - grid.x, share), row = grid.rows.at(z - grid.z, share);
+    return grid.first + static_cast<std::size_t>(column * (grid.rows.last + 1) + row);
   }
 
   /// From the bytes of a file, maybe of one inside of another; what is wrong with them, or nothing.
@@ -841,17 +831,14 @@ class FrictionMap {
   FrictionMapInfo info_;
   double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
   std::vector<double> ends_, offset_;                          // of the bands
-  double offset_x_ = 0, last_x_ = 0;                           // ln of the box's velocities
-  double offset_per_x_ = 0;
-  std::int64_t last_offset_ = 0;
-  std::size_t cell_size_ = map_detail::block_size;  // numbers from one to the next
-  std::uint32_t steps_ = 0;                         // of T0 in cells, or of a slanted map's share, 0 for one T0
+  double first_x_ = 0, last_x_ = 0;                            // ln of the box's velocities
+  std::size_t cell_size_ = map_detail::block_size;             // numbers from one to the next
+  std::uint32_t steps_ = 0;  // of the third axis in cells: T0, the direction, or a slanted map's share
   bool is_slanted_ = false;
-  std::int64_t last_step_ = 0;
-  std::int64_t last_row_ = 0, last_column_ = 0, row_size_ = 0;
-  double steps_per_T_ = 0, step_of_T_ = 0, rows_per_T_ = 0, sliding_per_x_ = 0;
+  map_detail::Steps offset_steps_, third_, sliding_x_, sliding_T_;
+  double step_of_third_ = 0;
+  std::int64_t row_size_ = 0;              // of ln s0
   std::array<double, 2> log_a_T_{};        // its sides, of a slanted map
-  double step_of_share_ = 0;               // of a slanted map
   std::vector<double> shift_;              // coefficients of ln a_T over T0
   std::vector<map_detail::Line> sliding_;  // of ln s0 over x and T0
   std::shared_ptr<const FrictionMap> cold_, across_;
@@ -884,33 +871,29 @@ class Reader {
   double f64() noexcept { return from_bits(number(8)); }
   const unsigned char* skip(std::size_t n) noexcept { return std::exchange(at_, at_ + n); }
 
-  /// False where one is not finite or larger than `most`.
-  bool numbers(std::vector<double>& to, std::size_t n, double most) {
+  /// Where one is not finite or beyond its limits, not all is good any more.
+  bool good = true;
+  double f64(double least, double most) noexcept {
+    const double x = f64();
+    good = good && !is_nan(x) && x >= least && x <= most;
+    return x;
+  }
+  void numbers(std::initializer_list<double*> to, double least, double most) noexcept {
+    for (double* const x : to) *x = f64(least, most);
+  }
+  void numbers(std::vector<double>& to, std::size_t n, double most) {
     to.resize(n);
-    bool good = true;
-    for (double& x : to) good = number(x, -most, most) && good;
-    return good;
-  }
-  bool number(double& x, double least, double most) noexcept {
-    x = f64();
-    return !is_nan(x) && x >= least && x <= most;
-  }
-  bool numbers(std::initializer_list<double*> to, double least, double most) noexcept {
-    bool good = true;
-    for (double* const x : to) good = number(*x, least, most) && good;
-    return good;
+    for (double& x : to) x = f64(-most, most);
   }
   /// Cells: corners, of which powers of the distance stay finite, and so many lines of polynomials.
-  bool cells(std::vector<double>& corners, std::vector<Line>& to, std::size_t n, std::size_t lines, double most) {
+  void cells(std::vector<double>& corners, std::vector<Line>& to, std::size_t n, std::size_t lines, double most) {
     corners.resize(2 * n);
     to.resize(n * lines);
-    bool good = true;
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t k = 2 * i; k < 2 * i + 2; ++k) good = number(corners[k], -1e4, 1e4) && good;
+      numbers({&corners[2 * i], &corners[2 * i + 1]}, -1e4, 1e4);
       for (std::size_t k = lines * i; k < lines * (i + 1); ++k)
-        for (double& c : to[k].number) good = number(c, -most, most) && good;
+        for (double& c : to[k].number) c = f64(-most, most);
     }
-    return good;
   }
 
  private:
@@ -931,20 +914,20 @@ struct Head {
 
   /// From a file of that many bytes; false where it contradicts itself.
   bool read(Reader& in, FrictionMapInfo& info, std::uint64_t size, Part part) noexcept {
-    bool good = in.numbers({&info.pressure[0], &info.pressure[1], &info.velocity[0], &info.velocity[1]}, tiny, huge);
-    good = in.numbers({&info.temperature[0], &info.temperature[1]}, 0, 1e6) && good;
-    good = in.numbers({&info.rtol, &info.max_error, &info.largest_checked_error, &info.memory_error, &info.shear_stress,
-                       &info.reference_velocity, &info.width},
-                      0, huge) &&
-           good;
+    in.numbers({&info.pressure[0], &info.pressure[1], &info.velocity[0], &info.velocity[1]}, tiny, huge);
+    in.numbers({&info.temperature[0], &info.temperature[1]}, 0, 1e6);
+    in.numbers({&info.rtol, &info.max_error, &info.largest_checked_error, &info.memory_error, &info.shear_stress,
+                &info.reference_velocity, &info.width},
+               0, huge);
     info.checked = in.u64();
     info.exceeded = in.u64();
     inside = in.u64();
     for (std::uint32_t* const n : {&flags, &bands, &offsets, &nodes, &columns, &rows, &grids, &entries, &cells, &text})
       *n = in.u32();
     constexpr std::uint32_t most = 9999;
-    good = good && flags < 8 && bands > 0 && bands <= most_bands && offsets != 1 && grids >= bands && entries > 0 &&
-           cells > 0 && nodes > 0 && nodes <= most && columns <= most && rows <= most && inside < size;
+    const bool sizes_fit = flags < 8 && bands > 0 && bands <= most_bands && offsets != 1 && grids >= bands &&
+                           entries > 0 && cells > 0 && nodes > 0 && nodes <= most && columns <= most && rows <= most &&
+                           inside < size;
     info.hysteresis = (flags & 1) != 0;
     info.heat = columns > 0;
     info.turns = !info.heat && nodes > 1;
@@ -952,7 +935,7 @@ struct Head {
     info.temperatures = info.heat ? nodes : 0;
     info.cells = cells;
     const bool law_fits = info.shear_stress == 0 || (info.shear_stress >= tiny && info.reference_velocity >= tiny);
-    return good && sides_fit(info) && heat_fits(info, part) && law_fits &&
+    return in.good && sizes_fit && sides_fit(info) && heat_fits(info, part) && law_fits &&
            (!is_slanted() || (nodes > 1 && bands == 3)) && bytes() == size;
   }
 
@@ -1023,7 +1006,7 @@ inline std::vector<Line> with_differences(const std::vector<double>& cubics, std
 inline bool no_grid_in_itself(const std::vector<Grid>& grids, const std::vector<std::int32_t>& entries) {
   std::vector<std::uint32_t> around(grids.size());  // how many grids each is in
   for (std::size_t k = 0; k < grids.size(); ++k)
-    for (std::size_t i = 0; i < std::size_t{grids[k].columns} * grids[k].rows; ++i) {
+    for (std::size_t i = 0; i < grids[k].entries(); ++i) {
       const std::int32_t entry = entries[grids[k].first + i];
       if (entry >= 0) continue;
       const auto inner = static_cast<std::size_t>(-1 - entry);
@@ -1095,48 +1078,48 @@ inline std::string FrictionMap::take(const unsigned char* bytes, std::size_t siz
 /// Takes all from the table of ln a_T to the cells, and what look-ups need of it; false where it contradicts itself.
 inline bool FrictionMap::take_tables(map_detail::Reader& in, const map_detail::Head& head) {
   const double kelvin = info_.temperature[1] - info_.temperature[0];
-  bool good = in.numbers(shift_, head.shifts(), 1e3);
+  in.numbers(shift_, head.shifts(), 1e3);
   if (is_slanted_) {
     const double end = 1 + shift_[1] * kelvin;
-    good = good && end >= 1e-9;  // there is no pole
-    const double whole = good ? shift_[0] * kelvin / end : 0;
-    good = good && whole >= -1e3 && whole <= 1e3;
+    if (!in.good || !(end >= 1e-9)) return false;  // there is a pole
+    const double whole = shift_[0] * kelvin / end;
+    if (!(std::fabs(whole) <= 1e3)) return false;
     log_a_T_ = {whole < 0 ? whole : 0, whole < 0 ? 0 : whole};
   }
   std::vector<double> sliding;
-  good = in.numbers(sliding, 2 * std::size_t{head.columns} * head.rows, 1e3) && good;
-  good = in.numbers(ends_, head.bands + std::size_t{1}, 2000) && good;
-  for (std::size_t i = 0; i < head.bands; ++i) good = good && ends_[i] < ends_[i + 1];
+  in.numbers(sliding, 2 * std::size_t{head.columns} * head.rows, 1e3);
+  in.numbers(ends_, head.bands + std::size_t{1}, 2000);
+  for (std::size_t i = 0; i < head.bands; ++i)
+    if (!(ends_[i] < ends_[i + 1])) return false;
   ends_.erase(ends_.begin());
   ends_.back() = 1e308;  // beyond all
-  good = in.numbers(offset_, 2 * std::size_t{head.offsets}, 1e3) && good;
-  good = take_grids(in, head) && good;
+  in.numbers(offset_, 2 * std::size_t{head.offsets}, 1e3);
+  if (!take_grids(in, head)) return false;
   cell_size_ = head.cell_size();
-  if (!good || !in.cells(corners_, cells_, head.cells, cell_size_ / 8, 1e100)) return false;
+  in.cells(corners_, cells_, head.cells, cell_size_ / 8, 1e100);
+  if (!in.good) return false;
 
-  offset_x_ = map_detail::ln(info_.velocity[0]);
+  first_x_ = map_detail::ln(info_.velocity[0]);
   last_x_ = map_detail::ln(info_.velocity[1]);
+  const auto over = [](double length, std::uint32_t nodes) {
+    return map_detail::Steps{(nodes - 1) / length, nodes < 2 ? 0 : std::int64_t{nodes} - 2};
+  };
   if (head.nodes > 1) {
     steps_ = head.nodes - 1;
-    last_step_ = std::int64_t{steps_} - 1;
-    steps_per_T_ = steps_ / kelvin;
-    step_of_T_ = 1 / steps_per_T_;
-    step_of_share_ = 1.0 / steps_;
-    if (info_.heat && !is_slanted_) shift_ = map_detail::cubics(shift_, head.nodes, step_of_T_);
-    rows_per_T_ = (head.rows - 1) / kelvin;
+    third_ = over(is_slanted_ ? 1 : kelvin, head.nodes);
+    step_of_third_ = 1 / third_.per_unit;
+    if (info_.heat && !is_slanted_) shift_ = map_detail::cubics(shift_, head.nodes, step_of_third_);
   }
   if (info_.heat) {
-    last_row_ = std::int64_t{head.rows} - 2;
-    last_column_ = std::int64_t{head.columns} - 2;
+    sliding_x_ = over(last_x_ - first_x_, head.columns);
+    if (head.rows > 1) sliding_T_ = over(kelvin, head.rows);
     row_size_ = 8 * (std::int64_t{head.columns} - 1);
-    sliding_per_x_ = (head.columns - 1) / (last_x_ - offset_x_);
-    sliding_ = map_detail::with_differences(map_detail::cubics(sliding, head.columns, 1 / sliding_per_x_),
+    sliding_ = map_detail::with_differences(map_detail::cubics(sliding, head.columns, 1 / sliding_x_.per_unit),
                                             4 * (std::size_t{head.columns} - 1));
   }
   if (head.offsets > 0) {
-    offset_per_x_ = (head.offsets - 1) / (last_x_ - offset_x_);
-    last_offset_ = std::int64_t{head.offsets} - 2;
-    offset_ = map_detail::cubics(offset_, head.offsets, 1 / offset_per_x_);
+    offset_steps_ = over(last_x_ - first_x_, head.offsets);
+    offset_ = map_detail::cubics(offset_, head.offsets, 1 / offset_steps_.per_unit);
   }
   ln_shear_stress_ = info_.shear_stress > 0 ? map_detail::ln(info_.shear_stress) : 0;
   ln_reference_ = info_.shear_stress > 0 ? map_detail::ln(info_.reference_velocity) : 0;
@@ -1147,28 +1130,26 @@ inline bool FrictionMap::take_tables(map_detail::Reader& in, const map_detail::H
 inline bool FrictionMap::take_grids(map_detail::Reader& in, const map_detail::Head& head) {
   // Steps of a grid are counted in 64 bits; x is no further from 0 than 700, s between its nodes than 1e7.
   constexpr double far_x = 1e3, far_z = 2e7, most_steps = 4e18;
-  bool good = true;
   std::uint64_t used = 0;
   grids_.resize(head.grids);
   for (map_detail::Grid& grid : grids_) {
-    good = in.numbers({&grid.x, &grid.z, &grid.columns_per_x, &grid.rows_per_z}, -1e12, 1e12) && good;
-    for (std::uint32_t* const n : {&grid.columns, &grid.rows, &grid.first}) *n = in.u32();
-    good = good && in.u32() == 0;
-    grid.last_column = std::int64_t{grid.columns} - 1;
-    grid.last_row = std::int64_t{grid.rows} - 1;
-    good = good && grid.columns > 0 && grid.rows > 0 && grid.first == used &&
-           (std::fabs(grid.x) + far_x) * std::fabs(grid.columns_per_x) < most_steps &&
-           (std::fabs(grid.z) + far_z) * std::fabs(grid.rows_per_z) < most_steps &&
-           std::uint64_t{grid.columns} * grid.rows <= head.entries - used;
-    if (good) used += std::uint64_t{grid.columns} * grid.rows;
+    in.numbers({&grid.x, &grid.z, &grid.columns.per_unit, &grid.rows.per_unit}, -1e12, 1e12);
+    for (map_detail::Steps* const steps : {&grid.columns, &grid.rows}) steps->last = std::int64_t{in.u32()} - 1;
+    grid.first = in.u32();
+    if (in.u32() != 0 || !in.good || grid.columns.last < 0 || grid.rows.last < 0 || grid.first != used ||
+        !((std::fabs(grid.x) + far_x) * std::fabs(grid.columns.per_unit) < most_steps) ||
+        !((std::fabs(grid.z) + far_z) * std::fabs(grid.rows.per_unit) < most_steps) ||
+        grid.entries() > head.entries - used)
+      return false;
+    used += grid.entries();
   }
   entries_.resize(head.entries);
   for (std::int32_t& entry : entries_) {
     entry = static_cast<std::int32_t>(in.u32());
-    good = good && entry < std::int64_t{head.cells} && -1 - std::int64_t{entry} < std::int64_t{head.grids};
+    if (entry >= std::int64_t{head.cells} || -1 - std::int64_t{entry} >= std::int64_t{head.grids}) return false;
   }
   in.skip(map_detail::Head::padding(4ull * head.entries));
-  return good && used == head.entries && map_detail::no_grid_in_itself(grids_, entries_);
+  return used == head.entries && map_detail::no_grid_in_itself(grids_, entries_);
 }
 
 inline bool FrictionMap::load(const char* path, std::string& why) {

@@ -26,13 +26,13 @@ struct Tables {
   const std::int32_t* entries;
   double first_x, last_x;
   const double* offset;  // cubics of s(x), or null
-  double offset_per_x, last_offset;
+  map_detail::Steps offset_steps;
   bool is_over_T0, is_slanted;  // the third axis of cells
-  double first_T0, steps_per_T0, last_step, step_of_share;
-  const double* shift;                               // cubics of ln a_T over T0, or null
-  double shift_a, shift_b, least_shift, most_shift;  // of a slanted map
-  const double* sliding;                             // cubics of ln s0
-  double sliding_per_x, last_column, rows_per_T0, last_row;
+  map_detail::Steps third;
+  const double* shift;                                         // cubics of ln a_T over T0, or null
+  double shift_a, shift_b, first_T0, least_shift, most_shift;  // of a slanted map
+  const double* sliding;                                       // cubics of ln s0
+  map_detail::Steps sliding_x, sliding_T;
   std::int32_t row_size;
   double ln_shear_stress, ln_reference,
       fall;  // ln mu_A = ln A/A0 + ln_shear_stress - ln p - fall (ln v - ln_reference)^2
@@ -140,27 +140,22 @@ class FrictionMapBatch {
             .ends = map.ends_.data(),
             .bands = map.ends_.size(),
             .entries = map.entries_.data(),
-            .first_x = map.offset_x_,
+            .first_x = map.first_x_,
             .last_x = map.last_x_,
             .offset = if_any(map.offset_),
-            .offset_per_x = map.offset_per_x_,
-            .last_offset = static_cast<double>(map.last_offset_),
+            .offset_steps = map.offset_steps_,
             .is_over_T0 = map.steps_ > 0 && !map.is_slanted_,
             .is_slanted = map.is_slanted_,
-            .first_T0 = map.info_.temperature[0],
-            .steps_per_T0 = map.steps_per_T_,
-            .last_step = map.steps_ - 1.0,
-            .step_of_share = map.step_of_share_,
+            .third = map.third_,
             .shift = if_any(map.shift_),
             .shift_a = map.is_slanted_ ? map.shift_[0] : 0,
             .shift_b = map.is_slanted_ ? map.shift_[1] : 0,
+            .first_T0 = map.info_.temperature[0],
             .least_shift = map.log_a_T_[0],
             .most_shift = map.log_a_T_[1],
             .sliding = map_detail::numbers(map.sliding_),
-            .sliding_per_x = map.sliding_per_x_,
-            .last_column = static_cast<double>(map.last_column_),
-            .rows_per_T0 = map.rows_per_T_,
-            .last_row = static_cast<double>(std::max<std::int64_t>(map.last_row_, 0)),
+            .sliding_x = map.sliding_x_,
+            .sliding_T = map.sliding_T_,
             .row_size = static_cast<std::int32_t>(map.row_size_),
             .ln_shear_stress = map.ln_shear_stress_,
             .ln_reference = map.ln_reference_,
