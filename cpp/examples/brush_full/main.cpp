@@ -10,10 +10,7 @@
 #include <asperity/friction_map.hpp>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <random>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "../brush.hpp"
@@ -53,23 +50,11 @@ double growth(const brush::Tire& tire, const asperity::FrictionMap& map) {
   return 1 / (1 - largest);
 }
 
-/// A file whole or not at all: written under a random name that nobody else has, then given its own, with the
-/// permissions of the file that it replaces. A link stays; a device or a pipe is refused.
-bool write_whole(const std::string& path, const std::vector<unsigned char>& bytes) {
-  namespace fs = std::filesystem;
-  std::error_code problem;
-  const fs::path target = fs::weakly_canonical(path, problem);
-  if (problem || (fs::exists(target) && !fs::is_regular_file(target))) return false;
-  const fs::path part = target.parent_path() / (".brush-" + std::to_string(std::random_device{}()));
-  std::FILE* const file = std::fopen(part.c_str(), "wbx");  // x: refused where there is such a file or link
+bool write(const std::string& path, const std::vector<unsigned char>& bytes) {
+  std::FILE* const file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) return false;
-  bool fine = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  fine = std::fclose(file) == 0 && fine;
-  if (fine && fs::exists(target)) fs::permissions(part, fs::status(target).permissions(), problem);
-  if (fine) fs::rename(part, target, problem);
-  if (fine && !problem) return true;
-  fs::remove(part, problem);
-  return false;
+  const bool is_whole = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  return std::fclose(file) == 0 && is_whole;
 }
 
 int run(const std::string& path) {
@@ -77,7 +62,7 @@ int run(const std::string& path) {
   const asperity::MapRequest box{.pressure = {1e4, 5e5}, .velocity = {1e-3, 50}, .checked = 20'000};
   const std::vector<unsigned char> file = asperity::build_friction_map(
       scene.road, scene.rubber, scene.shift, scene.heating, scene.model, scene.adhesion, {background, background}, box);
-  if (!write_whole(path, file)) {
+  if (!write(path, file)) {
     std::fprintf(stderr, "brush_full: %s: cannot be written\n", path.c_str());
     return 1;
   }

@@ -193,7 +193,7 @@ unsigned threads_of(const MapRequest& request) {
 /// Refines a map, adds to it what goes with its heat, made by `heat` that tells how far it is, and checks the finished
 /// file.
 std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhesion>& adhesion,
-                                const MapRequest& request,
+                                const MapRequest& request, std::string_view text,
                                 const std::function<MapHeatTables(const std::function<void(double)>&)>& heat = {}) {
   const unsigned threads = threads_of(request);
   Stages stages(request.progress, 1 + (heat ? 1 : 0) + (frame.directional() ? 1 : 0) + (request.checked > 0 ? 1 : 0));
@@ -205,13 +205,11 @@ std::vector<unsigned char> made(const MapFrame& frame, const std::optional<Adhes
     const MapFrame across = frame.of_across();
     const RefinedMap forces = refine(across, request.rtol, threads, stages.next());
     certificate.max_error = std::fmax(refined.max_error, forces.max_error);
-    MapRequest silent = request;
-    silent.text = {};
     MapHeatTables of_forces;
     of_forces.sliding = beside.sliding;
-    beside.across = map_file(across, forces, {}, silent, {.max_error = forces.max_error}, of_forces);
+    beside.across = map_file(across, forces, {}, request, {}, {.max_error = forces.max_error}, of_forces);
   }
-  const auto file = [&] { return map_file(frame, refined, adhesion, request, certificate, beside); };
+  const auto file = [&] { return map_file(frame, refined, adhesion, request, text, certificate, beside); };
   if (request.checked == 0) return file();
   check(frame, file(), request, threads, stages.next(), certificate);
   return file();
@@ -228,10 +226,8 @@ std::vector<unsigned char> without_heat(const Spectrum& spectrum, const Rubber& 
   const MapPoints at = points_of(request, {0});
   const std::string text =
       text_of(friction(spectrum, rubber, model, adhesion, at.pressure, at.velocity).notes, request);
-  MapRequest whole = request;
-  whole.text = text;
   const MapFrame frame(spectrum, rubber, model, request);
-  return made(turns ? frame : frame.in_one_direction(), adhesion, whole);
+  return made(turns ? frame : frame.in_one_direction(), adhesion, request, text);
 }
 
 }  // namespace
@@ -262,22 +258,19 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
   const FlashFriction found =
       friction(spectrum, rubber, shift, heating, model, adhesion, at.pressure, at.velocity, at.temperature);
   refuse_folds(found);
-  const std::string text = text_of(found.hot.notes, request);
-  MapRequest whole = request;
-  whole.text = text;
-
   const MapHeat heat{&shift, &heating, adhesion, temperature, temperature[0]};
   const MapFrame frame(spectrum, rubber, model, request, heat);
-  return made(frame, adhesion, whole, [&](const std::function<void(double)>& progress) {
-    MapRequest cold = request;
-    for (std::size_t i = 0; i < 2; ++i) cold.velocity[i] *= std::exp(frame.log_a_T_sides()[i]);
-    cold.progress = {};  // a second or two
-    const Rubber at_lowest = shifted(rubber, shift, temperature[0]);
-    MapHeatTables result;
-    result.cold = without_heat(spectrum, at_lowest, model, adhesion, cold, false);
-    result.sliding = sliding_table(spectrum, rubber, model, heat, request, threads_of(request), progress);
-    return result;
-  });
+  return made(frame, adhesion, request, text_of(found.hot.notes, request),
+              [&](const std::function<void(double)>& progress) {
+                MapRequest cold = request;
+                for (std::size_t i = 0; i < 2; ++i) cold.velocity[i] *= std::exp(frame.log_a_T_sides()[i]);
+                cold.progress = {};  // a second or two
+                const Rubber at_lowest = shifted(rubber, shift, temperature[0]);
+                MapHeatTables result;
+                result.cold = without_heat(spectrum, at_lowest, model, adhesion, cold, false);
+                result.sliding = sliding_table(spectrum, rubber, model, heat, request, threads_of(request), progress);
+                return result;
+              });
 }
 
 }  // namespace asperity

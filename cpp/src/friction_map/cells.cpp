@@ -1,7 +1,6 @@
 // The cells of a map: a quadtree whose leaves hold bicubic Hermite polynomials; beside a larger neighbour a corner
 // takes the neighbour's values, so that the map has continuous derivatives.
 #include <algorithm>
-#include <set>
 
 #include "friction_map/format.hpp"
 #include "numerics/interpolation.hpp"
@@ -71,16 +70,6 @@ std::optional<MapTree::Side> MapTree::side_through(std::uint32_t x, std::uint32_
       if (z != leaf.z && z != leaf.z + leaf.high) return Side{at, false, above};
     }
   return std::nullopt;
-}
-
-std::vector<std::array<std::uint32_t, 2>> MapTree::free_corners() const {
-  std::set<std::array<std::uint32_t, 2>> found;
-  for (const Leaf& leaf : nodes_)
-    if (leaf.child < 0 && leaf.needed)
-      for (const std::uint32_t x : {leaf.x, leaf.x + leaf.wide})
-        for (const std::uint32_t z : {leaf.z, leaf.z + leaf.high})
-          if (on_cut(z) || !side_through(x, z)) found.insert({x, z});
-  return {found.begin(), found.end()};
 }
 
 std::vector<std::size_t> MapTree::holders(const Leaf& leaf) const {

@@ -125,7 +125,8 @@ std::vector<std::array<double, 32>> blocks(const MapTree::Leaf& leaf, const std:
 
 std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& refined,
                                     const std::optional<Adhesion>& adhesion, const MapRequest& request,
-                                    const MapCertificate& certificate, const MapHeatTables& warm) {
+                                    std::string_view text, const MapCertificate& certificate,
+                                    const MapHeatTables& warm) {
   const MapTree& tree = refined.tree;
   const Index index(tree);
   const Adhesion law = adhesion.value_or(Adhesion{.shear_stress = 0});
@@ -147,7 +148,7 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
   const auto cells = static_cast<std::size_t>(index.cells);
   for (const std::size_t n :
        {flags, std::size_t{tree.bands()}, frame.log_modulus_nodes().size() / 2, refined.heights.size(),
-        warm.sliding.columns, warm.sliding.rows, index.grids.size(), index.entries.size(), cells, request.text.size()})
+        warm.sliding.columns, warm.sliding.rows, index.grids.size(), index.entries.size(), cells, text.size()})
     out.u32(n);
   for (const std::vector<double>& table :
        {frame.log_a_T(refined.heights), warm.sliding.values, tree.cuts(), frame.log_modulus_nodes()})
@@ -171,7 +172,7 @@ std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& ref
   }
   for (const auto* const inside : {&warm.cold, &warm.across})
     out.bytes.insert(out.bytes.end(), inside->begin(), inside->end());
-  out.text(request.text);
+  out.text(text);
   out.pad();
   Writer size;
   size.u64(out.bytes.size() + 8);

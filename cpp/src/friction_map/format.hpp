@@ -56,9 +56,6 @@ class MapTree {
   /// The leaf around a place given in halves of a step, so that a place beside a side is in one leaf only.
   [[nodiscard]] std::size_t leaf_around(std::uint32_t half_x, std::uint32_t half_z) const;
 
-  /// Corners of needed leaves whose values must come from outside: those that are a corner of every leaf they touch,
-  /// and those on a cut.
-  [[nodiscard]] std::vector<std::array<std::uint32_t, 2>> free_corners() const;
   /// Leaves in the middle of whose sides a leaf has a corner.
   [[nodiscard]] std::vector<std::size_t> holders(const Leaf& leaf) const;
   [[nodiscard]] std::size_t planes() const { return planes_; }
@@ -116,8 +113,10 @@ struct MapHeatTables {
   SlidingTable sliding;
 };
 
+/// `text` is for whoever reads the file.
 std::vector<unsigned char> map_file(const MapFrame& frame, const RefinedMap& refined,
                                     const std::optional<Adhesion>& adhesion, const MapRequest& request,
-                                    const MapCertificate& certificate, const MapHeatTables& beside);
+                                    std::string_view text, const MapCertificate& certificate,
+                                    const MapHeatTables& beside);
 
 }  // namespace asperity

@@ -73,11 +73,14 @@ void MapSlices::add(double lower, double upper, int depth) {
     add((lower + upper) / 2, upper, depth + 1);
   };
   if (depth < deepest && !is_smooth(lower, upper)) return halve();
-  Interval interval{lower, upper};
+  Interval& interval = intervals_.emplace_back(Interval{lower, upper});
   make(interval);
-  interval.error = 2 * test(interval);
-  if (interval.error > 2 * step_share * rtol_ && depth < deepest) return halve();
-  intervals_.push_back(std::move(interval));
+  const double error = 2 * test(interval);
+  if (error > 2 * step_share * rtol_ && depth < deepest) {
+    intervals_.pop_back();
+    return halve();
+  }
+  interval.error = error;
   tell(upper);
 }
 
@@ -98,8 +101,8 @@ void MapSlices::make(Interval& interval) {
   }
 }
 
-/// The largest error at random points of the interval.
-double MapSlices::test(Interval& interval) {
+/// The largest error at random points of the interval, the last one.
+double MapSlices::test(const Interval& interval) {
   std::vector<MapPlace> at;
   std::vector<double> height;
   for (std::size_t i = 0; i < tested; ++i) {
@@ -107,14 +110,11 @@ double MapSlices::test(Interval& interval) {
     height.push_back(interval.lower + random_() * (interval.upper - interval.lower));
   }
   const std::vector<MapSample> truth = frame_.sample_at(at, height, threads_);
-  intervals_.push_back(std::move(interval));
   double largest = 0;
   for (std::size_t i = 0; i < tested; ++i) {
     const MapSample found = this->at(at[i], height[i]);
     for (std::size_t f = 0; f < 2; ++f) largest = std::fmax(largest, std::fabs(found.f[f] - truth[i].f[f]));
   }
-  interval = std::move(intervals_.back());
-  intervals_.pop_back();
   return largest;
 }
 

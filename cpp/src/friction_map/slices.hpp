@@ -118,7 +118,7 @@ class MapSlices {
   void add(double lower, double upper, int depth);
   [[nodiscard]] bool is_smooth(double lower, double upper) const;
   void make(Interval& interval);
-  [[nodiscard]] double test(Interval& interval);
+  [[nodiscard]] double test(const Interval& interval);
   void choose_nodes();
   [[nodiscard]] double error_between_nodes();
   void set_nodes(std::size_t steps);

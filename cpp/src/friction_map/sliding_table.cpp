@@ -158,8 +158,15 @@ class Grid {
     std::iota(all.begin(), all.end(), std::size_t{0});
     compute(all);
     // what the coarser grid of every other node would have missed tells where this one misses something
-    for (std::size_t j = 0; j < rows_; ++j)
-      for (std::size_t i = 0; i < columns_; ++i) take_miss(i, j);
+    const auto compare = [&](Node& node, std::size_t at, std::size_t nodes, std::size_t stride) {
+      if (at > 0 && at + 1 < nodes)
+        node.miss =
+            std::fmax(node.miss, missed(node, ((&node - stride)->log_length + (&node + stride)->log_length) / 2));
+    };
+    for (std::size_t k = 0; k < nodes_.size(); ++k) {
+      compare(nodes_[k], k % columns_, columns_, 1);
+      compare(nodes_[k], k / columns_, rows_, columns_);
+    }
   }
 
   [[nodiscard]] bool is_too_coarse() const {
@@ -231,17 +238,6 @@ class Grid {
   /// Where s0 is d in its logarithm off, exp(-s / s0) is by d / e at most, and by 1.
   static double missed(const Node& node, double guess) {
     return node.change * std::fmin(1, std::fabs(node.log_length - guess) / std::numbers::e);
-  }
-
-  void take_miss(std::size_t i, std::size_t j) {
-    Node& node = nodes_[j * columns_ + i];
-    const auto compare = [&](std::size_t at, std::size_t n, std::size_t stride) {
-      if (at == 0 || at + 1 >= n) return;
-      const Node *const before = &node - stride, *const after = &node + stride;
-      node.miss = std::fmax(node.miss, missed(node, (before->log_length + after->log_length) / 2));
-    };
-    compare(i, columns_, 1);
-    compare(j, rows_, columns_);
   }
 
   void compute(const std::vector<std::size_t>& wanted) {
