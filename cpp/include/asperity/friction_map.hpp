@@ -273,17 +273,30 @@ struct Grid {
   }
 };
 
-class Reader;
-struct Head;
-/// What a file is: a map, or inside of one the map without heat or that of forces across.
-enum class Part { outer, cold, across };
-
 constexpr std::uint32_t layout = 4;
 constexpr std::size_t head_size = 192;
 constexpr std::size_t corner_size = 2, block_size = 32;     // numbers of a cell: its corner, then one block or more
 constexpr double tiny = 1e-300, huge = 1e300;               // limits of numbers in the file
 constexpr double long_slid = huge;                          // [m]
 constexpr std::uint32_t most_bands = 64, most_nested = 64;  // what a look-up goes through is bounded
+
+/// Of the axes of a map and of its tables, and the law of its adhesion: numbers alone.
+struct Scales {
+  double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
+  double first_x_ = 0, last_x_ = 0;                            // ln of the box's velocities
+  std::size_t cell_size_ = block_size;                         // numbers from one to the next
+  std::uint32_t steps_ = 0;  // of the third axis in cells: T0, the direction, or a slanted map's share
+  bool is_slanted_ = false;
+  Steps offset_steps_, third_, sliding_x_, sliding_T_;
+  double step_of_third_ = 0;
+  std::int64_t row_size_ = 0;  // of ln s0
+  double log_a_T_[2] = {};     // its sides, of a slanted map
+};
+
+class Reader;
+struct Head;
+/// What a file is: a map, or inside of one the map without heat or that of forces across.
+enum class Part { outer, cold, across };
 
 }  // namespace map_detail
 
@@ -321,7 +334,7 @@ struct MapPoint {
   double lateral;                                 // the force across over the load [-]
 };
 
-class FrictionMap {
+class FrictionMap : map_detail::Scales {
  public:
   /// The treatment of points outside of the box. To treat them as errors, look at the status of `at`.
   enum class Outside { nan, clamp };
@@ -829,17 +842,8 @@ class FrictionMap {
   friend class FrictionMapBatch;  // of the full library: many points at once
 
   FrictionMapInfo info_;
-  double ln_shear_stress_ = 0, ln_reference_ = 0, width_ = 0;  // width of the adhesion over ln(10)^2
-  std::vector<double> ends_, offset_;                          // of the bands
-  double first_x_ = 0, last_x_ = 0;                            // ln of the box's velocities
-  std::size_t cell_size_ = map_detail::block_size;             // numbers from one to the next
-  std::uint32_t steps_ = 0;  // of the third axis in cells: T0, the direction, or a slanted map's share
-  bool is_slanted_ = false;
-  map_detail::Steps offset_steps_, third_, sliding_x_, sliding_T_;
-  double step_of_third_ = 0;
-  std::int64_t row_size_ = 0;              // of ln s0
-  std::array<double, 2> log_a_T_{};        // its sides, of a slanted map
-  std::vector<double> shift_;              // coefficients of ln a_T over T0
+  std::vector<double> ends_, offset_;      // of the bands; cubics of s(x)
+  std::vector<double> shift_;              // cubics of ln a_T over T0, or the law of a slanted map
   std::vector<map_detail::Line> sliding_;  // of ln s0 over x and T0
   std::shared_ptr<const FrictionMap> cold_, across_;
   std::vector<map_detail::Grid> grids_;
@@ -1084,7 +1088,7 @@ inline bool FrictionMap::take_tables(map_detail::Reader& in, const map_detail::H
     if (!in.good || !(end >= 1e-9)) return false;  // there is a pole
     const double whole = shift_[0] * kelvin / end;
     if (!(std::fabs(whole) <= 1e3)) return false;
-    log_a_T_ = {whole < 0 ? whole : 0, whole < 0 ? 0 : whole};
+    log_a_T_[whole < 0 ? 0 : 1] = whole;
   }
   std::vector<double> sliding;
   in.numbers(sliding, 2 * std::size_t{head.columns} * head.rows, 1e3);

@@ -16,27 +16,15 @@ namespace {
 
 constexpr std::size_t capacity = 512;  // points of a block
 
-/// What loops need of a map.
-struct Tables {
+/// What loops need of a map. ln mu_A = ln A/A0 + ln_shear_stress - ln p - width (ln v - ln_reference)^2.
+struct Tables : map_detail::Scales {
+  const FrictionMapInfo* info;
   const double *polynomials, *corners;  // of cells
-  std::size_t cell_size;                // numbers from one to the next
   const map_detail::Grid* grids;
   const double* ends;  // of bands
   std::size_t bands;
   const std::int32_t* entries;
-  double first_x, last_x;
-  const double* offset;  // cubics of s(x), or null
-  map_detail::Steps offset_steps;
-  bool is_over_T0, is_slanted;  // the third axis of cells
-  map_detail::Steps third;
-  const double* shift;                                         // cubics of ln a_T over T0, or null
-  double shift_a, shift_b, first_T0, least_shift, most_shift;  // of a slanted map
-  const double* sliding;                                       // cubics of ln s0
-  map_detail::Steps sliding_x, sliding_T;
-  std::int32_t row_size;
-  double ln_shear_stress, ln_reference,
-      fall;  // ln mu_A = ln A/A0 + ln_shear_stress - ln p - fall (ln v - ln_reference)^2
-  bool has_hysteresis, has_adhesion;
+  const double *offset, *shift, *sliding;  // cubics of s(x), of ln a_T over T0, and of ln s0
 };
 
 /// Columns of a block.
@@ -94,7 +82,8 @@ class FrictionMapBatch {
                    bool shifts_adhesion)
       : map_(map), columns_(points), outside_(outside), shifts_adhesion_(shifts_adhesion), tables_(tables_of(map)) {
     if (map.cold_) cold_ = tables_of(*map.cold_);
-    if (tables_.is_over_T0 && points.background.size() == 1 && n >= map.info_.cells) share(points.background[0]);
+    if (map.steps_ > 0 && !map.is_slanted_ && points.background.size() == 1 && n >= map.info_.cells)
+      share(points.background[0]);
   }
 
   /// A number at points [begin, begin + n), at most a block; how many come before the first without a value.
@@ -106,8 +95,8 @@ class FrictionMapBatch {
       });
     using enum MapQuantity;
     const bool is_sum = quantity == mu || quantity == traction;
-    const Parts parts{(is_sum || quantity == hysteresis) && tables_.has_hysteresis, quantity == contact_area,
-                      (is_sum || quantity == adhesion) && tables_.has_adhesion};
+    const Parts parts{(is_sum || quantity == hysteresis) && map_.info_.hysteresis, quantity == contact_area,
+                      (is_sum || quantity == adhesion) && has_adhesion()};
     const bool remembers = map_.info_.heat && !columns_.distance.empty();
     loops_.look_up(tables_, remembers ? &cold_ : nullptr, parts, of, n, block_, result);
     for (std::size_t i = 0; i < n && quantity == traction; ++i)
@@ -132,36 +121,17 @@ class FrictionMapBatch {
 
  private:
   static Tables tables_of(const FrictionMap& map) {
-    const auto if_any = [](const std::vector<double>& of) { return of.empty() ? nullptr : of.data(); };
-    return {.polynomials = map.cells(),
-            .corners = map.corners_.data(),
-            .cell_size = map.cell_size_,
-            .grids = map.grids_.data(),
-            .ends = map.ends_.data(),
-            .bands = map.ends_.size(),
-            .entries = map.entries_.data(),
-            .first_x = map.first_x_,
-            .last_x = map.last_x_,
-            .offset = if_any(map.offset_),
-            .offset_steps = map.offset_steps_,
-            .is_over_T0 = map.steps_ > 0 && !map.is_slanted_,
-            .is_slanted = map.is_slanted_,
-            .third = map.third_,
-            .shift = if_any(map.shift_),
-            .shift_a = map.is_slanted_ ? map.shift_[0] : 0,
-            .shift_b = map.is_slanted_ ? map.shift_[1] : 0,
-            .first_T0 = map.info_.temperature[0],
-            .least_shift = map.log_a_T_[0],
-            .most_shift = map.log_a_T_[1],
-            .sliding = map_detail::numbers(map.sliding_),
-            .sliding_x = map.sliding_x_,
-            .sliding_T = map.sliding_T_,
-            .row_size = static_cast<std::int32_t>(map.row_size_),
-            .ln_shear_stress = map.ln_shear_stress_,
-            .ln_reference = map.ln_reference_,
-            .fall = map.width_,
-            .has_hysteresis = map.info_.hysteresis,
-            .has_adhesion = map.info_.shear_stress > 0};
+    return {map,
+            &map.info_,
+            map.cells(),
+            map.corners_.data(),
+            map.grids_.data(),
+            map.ends_.data(),
+            map.ends_.size(),
+            map.entries_.data(),
+            map.offset_.data(),
+            map.shift_.data(),
+            map_detail::numbers(map.sliding_)};
   }
 
   /// The cells' polynomials at the one T0 of many points, which then need no sums over it.
@@ -175,8 +145,8 @@ class FrictionMapBatch {
           map_.cells() + map_.cell_size_ * i + 4 * map_detail::block_size * static_cast<std::size_t>(third.step),
           third.d, to + map_detail::block_size * i);
     tables_.polynomials = to;
-    tables_.cell_size = map_detail::block_size;
-    tables_.is_over_T0 = false;
+    tables_.cell_size_ = map_detail::block_size;
+    tables_.steps_ = 0;
   }
 
   Points points(std::size_t begin, std::size_t n) {
@@ -207,10 +177,12 @@ class FrictionMapBatch {
     loops_.logarithms(of.pressure, block_.ln_p, n);
     block_.ln_v = block_.x;
     if (shifts_adhesion_ || is_unshifted) return true;
-    if (tables_.has_adhesion) loops_.logarithms(block_.speed, block_.speed, n);
+    if (has_adhesion()) loops_.logarithms(block_.speed, block_.speed, n);
     block_.ln_v = block_.speed;
     return true;
   }
+
+  [[nodiscard]] bool has_adhesion() const { return map_.info_.shear_stress > 0; }
 
   /// Rare. `act` gives the number that is NaN where there is no value.
   template <class Act>
