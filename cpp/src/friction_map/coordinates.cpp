@@ -63,8 +63,7 @@ std::optional<double> MapFrame::least_smooth(double from, double to) const {
 }
 
 double MapFrame::log_modulus(double x) const {
-  const double v = std::clamp(std::exp(x), velocity_[0], velocity_[1]);
-  const auto found = macro_modulus(model_.correction, spectrum_, rubber_, v, model_.poisson_ratio);
+  const auto found = macro_modulus(model_.correction, spectrum_, rubber_, velocity_at(x), model_.poisson_ratio);
   return found ? std::log(*found) : 0;
 }
 

@@ -54,45 +54,19 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
   turns_ = is_directional(spectrum_) && !of_scan && !heat_;  // of a scan every direction has contacts of its own
 }
 
-namespace {
-
-template <class Solve>
-auto solved(double rtol, const Solve& solve) {
-  try {
-    return solve();
-  } catch (const NotConverged& error) {
-    throw NotConverged(error.diagnostic().within(argument("rtol") + " = " + value(rtol) +
-                                                 " of the map: the solver, asked for a part of it, found "));
-  }
-}
-
-}  // namespace
-
-std::vector<double> MapFrame::velocities_of(std::span<const MapPlace> places) const {
-  std::vector<double> velocity;
-  for (const MapPlace& place : places) velocity.push_back(std::clamp(std::exp(place.x), velocity_[0], velocity_[1]));
-  return velocity;
-}
+double MapFrame::velocity_at(double x) const { return std::clamp(std::exp(x), velocity_[0], velocity_[1]); }
 
 std::vector<MapSample> MapFrame::sample(std::span<const MapPlace> places, unsigned threads) const {
-  std::vector<double> pressure;
-  for (const MapPlace& place : places) pressure.push_back(std::exp(place.z + log_modulus_offset(place.x)));
-  return sample(model_, pressure, places, threads);
+  MapPoints at;
+  for (const auto& [x, z] : places) at.add(std::exp(z + log_modulus_offset(x)), velocity_at(x), 0);
+  return solve(model_, at, threads);
 }
 
 std::vector<MapSample> MapFrame::sample_unshifted(std::span<const MapPlace> places, unsigned threads) const {
   if (heat_) return sample_at(places, std::vector<double>(places.size(), heat_->height), threads);
-  std::vector<double> pressure;
-  for (const MapPlace& place : places) pressure.push_back(std::exp(place.z));
-  return sample(unshifted_, pressure, places, threads);
-}
-
-std::vector<MapSample> MapFrame::sample(const ContactModel& model, const std::vector<double>& pressure,
-                                        std::span<const MapPlace> places, unsigned threads) const {
-  if (places.empty()) return {};
-  const std::vector<double> velocity = velocities_of(places);
-  return samples_of(
-      solved(rtol_, [&] { return friction(spectrum_, rubber_, model, {}, pressure, velocity, false, threads); }), {});
+  MapPoints at;
+  for (const auto& [x, z] : places) at.add(std::exp(z), velocity_at(x), 0);
+  return solve(unshifted_, at, threads);
 }
 
 std::vector<MapSample> MapFrame::sample_at(std::span<const MapPlace> places, std::span<const double> height,
@@ -119,16 +93,25 @@ std::vector<MapSample> MapFrame::sample_at(std::span<const MapPlace> places, std
 
 std::vector<MapSample> MapFrame::sample_points(std::span<const MapPlace> points, std::span<const double> temperature,
                                                unsigned threads) const {
-  if (points.empty()) return {};
-  const std::vector<double> velocity = velocities_of(points);
-  std::vector<double> pressure;
-  for (const MapPlace& point : points) pressure.push_back(std::exp(point.z));
-  const FlashFriction f = solved(rtol_, [&] {
-    return friction(spectrum_, rubber_, *heat_->shift, *heat_->heating, model_, heat_->adhesion, pressure, velocity,
-                    temperature, Branch::coldest, false, threads);
-  });
-  refuse_folds(f);
-  return samples_of(f.hot, f.parts_error);
+  MapPoints at;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    at.add(std::exp(points[i].z), velocity_at(points[i].x), temperature[i]);
+  return solve(model_, at, threads);
+}
+
+std::vector<MapSample> MapFrame::solve(const ContactModel& model, const MapPoints& at, unsigned threads) const {
+  if (at.pressure.empty()) return {};
+  try {
+    if (!heat_)
+      return samples_of(friction(spectrum_, rubber_, model, {}, at.pressure, at.velocity, false, threads), {});
+    const FlashFriction f = friction(spectrum_, rubber_, *heat_->shift, *heat_->heating, model, heat_->adhesion,
+                                     at.pressure, at.velocity, at.temperature, Branch::coldest, false, threads);
+    refuse_folds(f);
+    return samples_of(f.hot, f.parts_error);
+  } catch (const NotConverged& error) {
+    throw NotConverged(error.diagnostic().within(argument("rtol") + " = " + value(rtol_) +
+                                                 " of the map: the solver, asked for a part of it, found "));
+  }
 }
 
 void refuse_folds(const FlashFriction& f) {

@@ -222,9 +222,8 @@ class MapFrame {
 
  private:
   [[nodiscard]] ValueAndSlope log_a_T_at(double temperature) const;
-  [[nodiscard]] std::vector<MapSample> sample(const ContactModel& model, const std::vector<double>& pressure,
-                                              std::span<const MapPlace> places, unsigned threads) const;
-  [[nodiscard]] std::vector<double> velocities_of(std::span<const MapPlace> places) const;
+  [[nodiscard]] double velocity_at(double x) const;
+  [[nodiscard]] std::vector<MapSample> solve(const ContactModel& model, const MapPoints& at, unsigned threads) const;
   [[nodiscard]] std::vector<MapSample> samples_of(const Friction& friction, std::span<const double> parts_error) const;
   void make_log_modulus_offset();
   void cut_bands();

@@ -26,25 +26,13 @@ std::size_t points(double range, double step, double most) {
   return static_cast<std::size_t>(std::clamp(std::ceil(range / step) + 1, 2.0, most));
 }
 
-/// How far the table is: halvings of the grid, which nobody foresees, share what is left with the test that is to come.
-class Progress {
- public:
-  explicit Progress(const std::function<void(double)>& tell) : tell_(tell) {}
-  /// So many lengths begin, before so many others that are known of.
-  void begin(std::size_t lengths, std::size_t others) {
-    from_ = to_;
-    const std::size_t left = lengths + others;
-    to_ = left == 0 ? 1 : from_ + (1 - from_) * static_cast<double>(lengths) / static_cast<double>(left);
-  }
-  void tell(double share) const {
-    if (tell_) tell_(from_ + share * (to_ - from_));
-  }
+/// By how much the heat changes mu at a point, over the smaller of both.
+double changed(const FlashFriction& f, std::size_t i) {
+  const double hot = f.hot.mu[i], cold = f.cold.mu[i];
+  return std::fabs(cold - hot) / std::fmin(cold, hot);
+}
 
- private:
-  const std::function<void(double)>& tell_;
-  double from_ = 0, to_ = 0;
-};
-
+/// What is solved for a table, at points of its box.
 struct Scene {
   const Spectrum& spectrum;
   const Rubber& rubber;
@@ -52,39 +40,44 @@ struct Scene {
   const MapHeat& heat;
   const MapRequest& request;
   unsigned threads;
-  Progress& progress;
+  const std::function<void(double)>& progress;
+  double done = 0;  // of the progress
+
+  [[nodiscard]] double range_x() const { return std::log(request.velocity[1] / request.velocity[0]); }
+  void add(MapPoints& to, double share_p, double share_x, double share_T) const {
+    const auto [lowest, highest] = heat.range;
+    to.add(between(request.pressure, share_p), between(request.velocity, share_x),
+           std::fmin(highest, lowest + share_T * (highest - lowest)));
+  }
+
+  /// Before so many others that are known of: halvings of the grid, which nobody foresees, share what is left of the
+  /// progress with the test that is to come.
+  std::vector<double> lengths(const MapPoints& at, std::size_t others) {
+    constexpr std::size_t together = 4;  // a tenth of a second and more on a scan
+    const std::size_t n = at.velocity.size(), left = n + others;
+    std::vector<double> result(n);
+    const double from = done;
+    done = left == 0 ? 1 : from + (1 - from) * static_cast<double>(n) / static_cast<double>(left);
+    const auto tell = [&](double share) {
+      if (progress) progress(from + share * (done - from));
+    };
+    in_blocks(threads, n, together, [&](unsigned thread, std::size_t begin, std::size_t end) {
+      const auto part = [&](const std::vector<double>& all) { return std::span(all).subspan(begin, end - begin); };
+      std::ranges::copy(sliding_length(spectrum, rubber, *heat.shift, *heat.heating, model, heat.adhesion,
+                                       part(at.pressure), part(at.velocity), part(at.temperature)),
+                        result.begin() + static_cast<std::ptrdiff_t>(begin));
+      // from this thread alone: blocks are taken in their order
+      if (thread + 1 == threads) tell(static_cast<double>(end) / static_cast<double>(n));
+    });
+    tell(1);
+    return result;
+  }
+
+  [[nodiscard]] FlashFriction heated(const MapPoints& at) const {
+    return friction(spectrum, rubber, *heat.shift, *heat.heating, model, heat.adhesion, at.pressure, at.velocity,
+                    at.temperature, Branch::coldest, false, threads);
+  }
 };
-
-double temperature_at(const std::array<double, 2>& range, double share) {
-  return std::fmin(range[1], range[0] + share * (range[1] - range[0]));
-}
-
-std::vector<double> lengths(const Scene& scene, const MapPoints& at, std::size_t others) {
-  constexpr std::size_t together = 4;  // a tenth of a second and more on a scan
-  std::vector<double> result(at.velocity.size());
-  scene.progress.begin(result.size(), others);
-  in_blocks(scene.threads, result.size(), together, [&](unsigned thread, std::size_t begin, std::size_t end) {
-    const auto part = [&](const std::vector<double>& all) { return std::span(all).subspan(begin, end - begin); };
-    std::ranges::copy(sliding_length(scene.spectrum, scene.rubber, *scene.heat.shift, *scene.heat.heating, scene.model,
-                                     scene.heat.adhesion, part(at.pressure), part(at.velocity), part(at.temperature)),
-                      result.begin() + static_cast<std::ptrdiff_t>(begin));
-    // from this thread alone: blocks are taken in their order
-    if (thread + 1 == scene.threads) scene.progress.tell(static_cast<double>(end) / static_cast<double>(result.size()));
-  });
-  scene.progress.tell(1);
-  return result;
-}
-
-FlashFriction heated(const Scene& scene, const MapPoints& at) {
-  return friction(scene.spectrum, scene.rubber, *scene.heat.shift, *scene.heat.heating, scene.model,
-                  scene.heat.adhesion, at.pressure, at.velocity, at.temperature, Branch::coldest, false, scene.threads);
-}
-
-/// By how much the heat changes mu at a point, over the smaller of both.
-double changed(const FlashFriction& f, std::size_t i) {
-  const double hot = f.hot.mu[i], cold = f.cold.mu[i];
-  return std::fabs(cold - hot) / std::fmin(cold, hot);
-}
 
 /// ln s0 as a look-up finds it.
 double found_at(const SlidingTable& table, double share_x, double share_T, double range_x) {
@@ -109,33 +102,30 @@ double found_at(const SlidingTable& table, double share_x, double share_T, doubl
 /// one of these would be but for a chance of 0.99^460. No point is off by more than the heat changes mu, as
 /// exp(-s / s0) is between 0 and 1 whatever s0 is: where that is a small part of rtol it is the error, and s0 is not
 /// computed there.
-double error_of(const SlidingTable& table, const Scene& scene) {
-  const MapRequest& request = scene.request;
+double error_of(const SlidingTable& table, Scene& scene) {
   Random random(20261124);
-  const double range_x = std::log(request.velocity[1] / request.velocity[0]);
   MapPoints at;
   std::vector<double> ln_length, slid;
   for (std::size_t i = 0; i < tested; ++i) {
     const double share_x = random(), share_T = random();
-    at.add(between(request.pressure, random()), between(request.velocity, share_x),
-           temperature_at(scene.heat.range, share_T));
-    ln_length.push_back(found_at(table, share_x, share_T, range_x));
+    scene.add(at, random(), share_x, share_T);
+    ln_length.push_back(found_at(table, share_x, share_T, scene.range_x()));
     slid.push_back(longest * random());
   }
-  const FlashFriction f = heated(scene, at);
+  const FlashFriction f = scene.heated(at);
   double largest = 0;
   std::vector<std::size_t> wanted;
   MapPoints of_wanted;
   for (std::size_t i = 0; i < tested; ++i) {
     const double change = changed(f, i);
-    if (change <= 2 * step_share * request.rtol) {
+    if (change <= 2 * step_share * scene.request.rtol) {
       largest = std::fmax(largest, change);
       continue;
     }
     wanted.push_back(i);
     of_wanted.add(at.pressure[i], at.velocity[i], at.temperature[i]);
   }
-  const std::vector<double> length = lengths(scene, of_wanted, 0);
+  const std::vector<double> length = scene.lengths(of_wanted, 0);
   for (std::size_t k = 0; k < wanted.size(); ++k) {
     const std::size_t i = wanted[k];
     const double distance = slid[i] * length[k], hot = f.hot.mu[i], apart = f.cold.mu[i] - hot;
@@ -149,9 +139,9 @@ double error_of(const SlidingTable& table, const Scene& scene) {
 /// ln s0 over equal steps of ln v and of the temperature, at the middle of the pressures.
 class Grid {
  public:
-  explicit Grid(const Scene& scene) : scene_(scene) {
+  explicit Grid(Scene& scene) : scene_(scene) {
     const auto [lowest, highest] = scene.heat.range;
-    columns_ = points(std::log(scene.request.velocity[1] / scene.request.velocity[0]), step_x, most_columns);
+    columns_ = points(scene.range_x(), step_x, most_columns);
     rows_ = lowest == highest ? 1 : points(highest - lowest, step_T, most_rows);
     nodes_.resize(columns_ * rows_);
     std::vector<std::size_t> all(nodes_.size());
@@ -213,9 +203,8 @@ class Grid {
     SlidingTable table;
     table.columns = columns_;
     table.rows = rows_;
-    const double range = std::log(scene_.request.velocity[1] / scene_.request.velocity[0]);
     std::vector<double> x(columns_), y(columns_);
-    for (std::size_t i = 0; i < columns_; ++i) x[i] = range * share(i, columns_);
+    for (std::size_t i = 0; i < columns_; ++i) x[i] = scene_.range_x() * share(i, columns_);
     for (std::size_t j = 0; j < rows_; ++j) {
       for (std::size_t i = 0; i < columns_; ++i) y[i] = nodes_[j * columns_ + i].log_length;
       const Steffen through(x, y);
@@ -241,17 +230,14 @@ class Grid {
   }
 
   void compute(const std::vector<std::size_t>& wanted) {
-    const MapRequest& request = scene_.request;
     MapPoints at;
-    for (const std::size_t k : wanted)
-      at.add(between(request.pressure, 0.5), between(request.velocity, share(k % columns_, columns_)),
-             temperature_at(scene_.heat.range, share(k / columns_, rows_)));
-    const std::vector<double> length = lengths(scene_, at, tested);
-    const FlashFriction f = heated(scene_, at);
+    for (const std::size_t k : wanted) scene_.add(at, 0.5, share(k % columns_, columns_), share(k / columns_, rows_));
+    const std::vector<double> length = scene_.lengths(at, tested);
+    const FlashFriction f = scene_.heated(at);
     for (std::size_t k = 0; k < wanted.size(); ++k) nodes_[wanted[k]] = {std::log(length[k]), changed(f, k), 0};
   }
 
-  const Scene& scene_;
+  Scene& scene_;
   std::size_t columns_ = 0, rows_ = 0;
   std::vector<Node> nodes_;  // row by row
 };
@@ -261,8 +247,7 @@ class Grid {
 SlidingTable sliding_table(const Spectrum& spectrum, const Rubber& rubber, const ContactModel& model,
                            const MapHeat& heat, const MapRequest& request, unsigned threads,
                            const std::function<void(double)>& progress) {
-  Progress done(progress);
-  const Scene scene{spectrum, rubber, model, heat, request, threads, done};
+  Scene scene{spectrum, rubber, model, heat, request, threads, progress};
   Grid grid(scene);
   while (grid.is_too_coarse()) grid.halve();
   SlidingTable table = grid.table();
