@@ -24,28 +24,27 @@ Status each_entry(Instance& instance, const fmi3ValueReference vr[], std::size_t
 
 /// The member `act` on each, as a call of the host.
 template <class Value, class Act>
-fmi3Status each_value(fmi3Instance instance, const Call& call, const fmi3ValueReference vr[], std::size_t nvr,
-                      Value values[], std::size_t n_values, Act act) {
-  return fmi3(guarded(instance, call, [&](Instance& of) {
+Status each_value(fmi3Instance instance, const Call& call, const fmi3ValueReference vr[], std::size_t nvr,
+                  Value values[], std::size_t n_values, Act act) {
+  return guarded(instance, call, [&](Instance& of) {
     return each_entry(of, vr, nvr, n_values, [&](std::uint32_t variable, std::size_t point, std::size_t k) {
       return (of.*act)(variable, point, values[k]);
     });
-  }));
-}
-
-inline fmi3Status not_offered(fmi3Instance instance, const char* function) {
-  return fmi3(guarded(instance, [&](Instance& of) { return of.error(std::string(function) + " is not offered"); }));
+  });
 }
 
 }  // namespace asperity_fmu
 
+/// A function of the standard: its name, its parameters, and what gives its status.
+#define ASPERITY_FMI3(name, parameters, ...) \
+  ASPERITY_FMU_EXPORT fmi3Status name parameters { return fmi3(__VA_ARGS__); }
+
 extern "C" {
 
 ASPERITY_FMU_EXPORT const char* fmi3GetVersion(void) { return "3.0"; }
-ASPERITY_FMU_EXPORT fmi3Status fmi3SetDebugLogging(fmi3Instance instance, fmi3Boolean on, std::size_t n,
-                                                   const fmi3String categories[]) {
-  return fmi3(guarded(instance, [&](Instance& of) { return of.log(on, n, categories); }));
-}
+ASPERITY_FMI3(fmi3SetDebugLogging,
+              (fmi3Instance instance, fmi3Boolean on, std::size_t n, const fmi3String categories[]),
+              call(instance, &Instance::log, on, n, categories))
 
 ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3String resources,
                                                              fmi3Boolean, fmi3Boolean, fmi3Boolean event_mode,
@@ -84,54 +83,43 @@ ASPERITY_FMU_EXPORT fmi3Instance fmi3InstantiateScheduledExecution(fmi3String, f
 }
 ASPERITY_FMU_EXPORT void fmi3FreeInstance(fmi3Instance instance) { delete static_cast<Instance*>(instance); }
 
-ASPERITY_FMU_EXPORT fmi3Status fmi3EnterInitializationMode(fmi3Instance instance, fmi3Boolean, fmi3Float64,
-                                                           fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop) {
-  return fmi3(guarded(instance, entering, [&](Instance& of) {
-    const Status status = of.begin(start, has_stop, stop);
-    return status == Status::ok ? of.enter(entering, initializing) : status;
-  }));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3ExitInitializationMode(fmi3Instance instance) {
-  return fmi3(guarded(instance, [](Instance& of) { return of.enter(exiting, stepping); }));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3Terminate(fmi3Instance instance) {
-  return fmi3(guarded(instance, [](Instance& of) { return of.enter(terminating, terminated); }));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3Reset(fmi3Instance instance) {
-  return fmi3(guarded(instance, [](Instance& of) { return of.reset(); }));
-}
+ASPERITY_FMI3(fmi3EnterInitializationMode,
+              (fmi3Instance instance, fmi3Boolean, fmi3Float64, fmi3Float64 start, fmi3Boolean has_stop,
+               fmi3Float64 stop),
+              guarded(instance, entering, [&](Instance& of) {
+                const Status status = of.begin(start, has_stop, stop);
+                return status == Status::ok ? of.enter(entering, initializing) : status;
+              }))
+ASPERITY_FMI3(fmi3ExitInitializationMode, (fmi3Instance instance), call(instance, &Instance::enter, exiting, stepping))
+ASPERITY_FMI3(fmi3Terminate, (fmi3Instance instance), call(instance, &Instance::enter, terminating, terminated))
+ASPERITY_FMI3(fmi3Reset, (fmi3Instance instance), call(instance, &Instance::reset))
 
-ASPERITY_FMU_EXPORT fmi3Status fmi3GetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
-                                              fmi3Float64 values[], std::size_t n_values) {
-  return each_value(instance, reading, vr, nvr, values, n_values, &Instance::get);
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3SetFloat64(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
-                                              const fmi3Float64 values[], std::size_t n_values) {
-  return each_value(instance, setting, vr, nvr, values, n_values, &Instance::set);
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3GetInt32(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
-                                            fmi3Int32 values[], std::size_t n_values) {
-  return each_value(instance, reading, vr, nvr, values, n_values, &Instance::get_integer);
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3GetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
-                                              fmi3Boolean values[], std::size_t n_values) {
-  return each_value(instance, reading, vr, nvr, values, n_values, &Instance::get_switch<fmi3Boolean>);
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3SetBoolean(fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr,
-                                              const fmi3Boolean values[], std::size_t n_values) {
-  return each_value(instance, setting, vr, nvr, values, n_values, &Instance::set_switch);
-}
+#define ASPERITY_FMU_GET(type, act)                                                                          \
+  ASPERITY_FMI3(fmi3Get##type,                                                                               \
+                (fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr, fmi3##type values[], \
+                 std::size_t n_values),                                                                      \
+                each_value(instance, reading, vr, nvr, values, n_values, act))
+#define ASPERITY_FMU_SET(type, act)                                                                                \
+  ASPERITY_FMI3(fmi3Set##type,                                                                                     \
+                (fmi3Instance instance, const fmi3ValueReference vr[], std::size_t nvr, const fmi3##type values[], \
+                 std::size_t n_values),                                                                            \
+                each_value(instance, setting, vr, nvr, values, n_values, act))
+ASPERITY_FMU_GET(Float64, &Instance::get)
+ASPERITY_FMU_SET(Float64, &Instance::set)
+ASPERITY_FMU_GET(Int32, &Instance::get_integer)
+ASPERITY_FMU_GET(Boolean, &Instance::get_switch<fmi3Boolean>)
+ASPERITY_FMU_SET(Boolean, &Instance::set_switch)
+#undef ASPERITY_FMU_GET
+#undef ASPERITY_FMU_SET
 
 // Types of which there is no variable.
-#define ASPERITY_FMU_NO_VARIABLE(type)                                                                             \
-  ASPERITY_FMU_EXPORT fmi3Status fmi3Get##type(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, \
-                                               fmi3##type[], std::size_t) {                                        \
-    return fmi3(no_variable_of(instance, nvr, #type));                                                             \
-  }                                                                                                                \
-  ASPERITY_FMU_EXPORT fmi3Status fmi3Set##type(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, \
-                                               const fmi3##type[], std::size_t) {                                  \
-    return fmi3(no_variable_of(instance, nvr, #type));                                                             \
-  }
+#define ASPERITY_FMU_NO_VARIABLE(type)                                                                                 \
+  ASPERITY_FMI3(fmi3Get##type,                                                                                         \
+                (fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, fmi3##type[], std::size_t),       \
+                no_variable_of(instance, nvr, #type))                                                                  \
+  ASPERITY_FMI3(fmi3Set##type,                                                                                         \
+                (fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, const fmi3##type[], std::size_t), \
+                no_variable_of(instance, nvr, #type))
 ASPERITY_FMU_NO_VARIABLE(Float32)
 ASPERITY_FMU_NO_VARIABLE(Int8)
 ASPERITY_FMU_NO_VARIABLE(UInt8)
@@ -142,48 +130,32 @@ ASPERITY_FMU_NO_VARIABLE(Int64)
 ASPERITY_FMU_NO_VARIABLE(UInt64)
 ASPERITY_FMU_NO_VARIABLE(String)
 #undef ASPERITY_FMU_NO_VARIABLE
-ASPERITY_FMU_EXPORT fmi3Status fmi3SetInt32(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
-                                            const fmi3Int32[], std::size_t) {
-  return fmi3(no_variable_of(instance, nvr, "Int32 that can be set"));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
-                                             std::size_t[], fmi3Binary[], std::size_t) {
-  return fmi3(no_variable_of(instance, nvr, "Binary"));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
-                                             const std::size_t[], const fmi3Binary[], std::size_t) {
-  return fmi3(no_variable_of(instance, nvr, "Binary"));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
-                                            fmi3Clock[]) {
-  return fmi3(no_variable_of(instance, nvr, "Clock"));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr,
-                                            const fmi3Clock[]) {
-  return fmi3(no_variable_of(instance, nvr, "Clock"));
-}
+ASPERITY_FMI3(fmi3SetInt32,
+              (fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, const fmi3Int32[], std::size_t),
+              no_variable_of(instance, nvr, "Int32 that can be set"))
+ASPERITY_FMI3(fmi3GetBinary,
+              (fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, std::size_t[], fmi3Binary[],
+               std::size_t),
+              no_variable_of(instance, nvr, "Binary"))
+ASPERITY_FMI3(fmi3SetBinary,
+              (fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, const std::size_t[],
+               const fmi3Binary[], std::size_t),
+              no_variable_of(instance, nvr, "Binary"))
+ASPERITY_FMI3(fmi3GetClock, (fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, fmi3Clock[]),
+              no_variable_of(instance, nvr, "Clock"))
+ASPERITY_FMI3(fmi3SetClock, (fmi3Instance instance, const fmi3ValueReference[], std::size_t nvr, const fmi3Clock[]),
+              no_variable_of(instance, nvr, "Clock"))
 
-ASPERITY_FMU_EXPORT fmi3Status fmi3GetFMUState(fmi3Instance instance, fmi3FMUState* state) {
-  return fmi3(guarded(instance, [&](Instance& of) { return of.keep(state); }));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3SetFMUState(fmi3Instance instance, fmi3FMUState state) {
-  return fmi3(guarded(instance, [&](Instance& of) { return of.restore(state); }));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3FreeFMUState(fmi3Instance instance, fmi3FMUState* state) {
-  return fmi3(guarded(instance, [&](Instance&) { return forget(state); }));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3SerializedFMUStateSize(fmi3Instance instance, fmi3FMUState state,
-                                                          std::size_t* size) {
-  return fmi3(guarded(instance, [&](Instance& of) { return of.size_of(state, *size); }));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3SerializeFMUState(fmi3Instance instance, fmi3FMUState state, fmi3Byte bytes[],
-                                                     std::size_t size) {
-  return fmi3(guarded(instance, [&](Instance& of) { return of.write(state, bytes, size); }));
-}
-ASPERITY_FMU_EXPORT fmi3Status fmi3DeserializeFMUState(fmi3Instance instance, const fmi3Byte bytes[], std::size_t size,
-                                                       fmi3FMUState* state) {
-  return fmi3(guarded(instance, [&](Instance& of) { return of.read(bytes, size, state); }));
-}
+ASPERITY_FMI3(fmi3GetFMUState, (fmi3Instance instance, fmi3FMUState* state), call(instance, &Instance::keep, state))
+ASPERITY_FMI3(fmi3SetFMUState, (fmi3Instance instance, fmi3FMUState state), call(instance, &Instance::restore, state))
+ASPERITY_FMI3(fmi3FreeFMUState, (fmi3Instance instance, fmi3FMUState* state), call(instance, &Instance::forget, state))
+ASPERITY_FMI3(fmi3SerializedFMUStateSize, (fmi3Instance instance, fmi3FMUState state, std::size_t* size),
+              call(instance, &Instance::size_of, state, size))
+ASPERITY_FMI3(fmi3SerializeFMUState, (fmi3Instance instance, fmi3FMUState state, fmi3Byte bytes[], std::size_t size),
+              call(instance, &Instance::write, state, bytes, size))
+ASPERITY_FMI3(fmi3DeserializeFMUState,
+              (fmi3Instance instance, const fmi3Byte bytes[], std::size_t size, fmi3FMUState* state),
+              call(instance, &Instance::read, bytes, size, state))
 
 ASPERITY_FMU_EXPORT fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueReference unknowns[],
                                                             std::size_t n_unknowns, const fmi3ValueReference knowns[],
@@ -215,8 +187,8 @@ ASPERITY_FMU_EXPORT fmi3Status fmi3DoStep(fmi3Instance instance, fmi3Float64 fro
 }
 
 // Functions of what this FMU says it has not.
-#define ASPERITY_FMU_NOT_OFFERED(name, arguments) \
-  ASPERITY_FMU_EXPORT fmi3Status name arguments { return not_offered(instance, #name); }
+#define ASPERITY_FMU_NOT_OFFERED(name, parameters) \
+  ASPERITY_FMI3(name, parameters, call(instance, &Instance::error, #name " is not offered"))
 ASPERITY_FMU_NOT_OFFERED(fmi3EnterEventMode, (fmi3Instance instance))
 ASPERITY_FMU_NOT_OFFERED(fmi3EnterStepMode, (fmi3Instance instance))
 ASPERITY_FMU_NOT_OFFERED(fmi3GetNumberOfVariableDependencies, (fmi3Instance instance, fmi3ValueReference, std::size_t*))
@@ -263,3 +235,4 @@ ASPERITY_FMU_NOT_OFFERED(fmi3ActivateModelPartition, (fmi3Instance instance, fmi
 #undef ASPERITY_FMU_NOT_OFFERED
 
 }  // extern "C"
+#undef ASPERITY_FMI3

@@ -169,19 +169,25 @@ struct Instance {
     return Status::ok;
   }
 
+  Status forget(void** kept) const {
+    delete static_cast<State*>(*kept);
+    *kept = nullptr;
+    return Status::ok;
+  }
+
   // As bytes, numbers of this machine, since a state is read by the program that wrote it.
 
   [[nodiscard]] std::size_t bytes() const { return sizeof(Settings) + model->points() * sizeof(Point); }
 
-  Status size_of(const void* kept, std::size_t& size) const {
+  Status size_of(const void* kept, std::size_t* size) const {
     if (kept == nullptr) return error("there is no state to be written");
-    size = bytes();
+    *size = bytes();
     return Status::ok;
   }
 
   Status write(const void* kept, void* to, std::size_t size) const {
     std::size_t needed = 0;
-    if (size_of(kept, needed) != Status::ok) return Status::error;
+    if (size_of(kept, &needed) != Status::ok) return Status::error;
     if (size < needed) return error("a state needs " + std::to_string(needed) + " bytes");
     const State& state = *static_cast<const State*>(kept);
     std::memcpy(to, &state.settings, sizeof(Settings));
@@ -211,12 +217,6 @@ struct Instance {
   }
 };
 
-inline Status forget(void** kept) {
-  delete static_cast<State*>(*kept);
-  *kept = nullptr;
-  return Status::ok;
-}
-
 /// The worse of two.
 inline Status worse(Status a, Status b) { return a < b ? b : a; }
 
@@ -229,6 +229,12 @@ Status guarded(void* instance, Function function) {
   } catch (...) {
     return Status::error;
   }
+}
+
+/// Calls a member.
+template <class Act, class... Arguments>
+Status call(void* instance, Act act, Arguments... arguments) {
+  return guarded(instance, [&](Instance& of) { return (of.*act)(arguments...); });
 }
 
 /// The same for a call that is not allowed at all times.
