@@ -4,6 +4,7 @@
 #ifndef ASPERITY_FMU_INSTANCE_HPP
 #define ASPERITY_FMU_INSTANCE_HPP
 
+#include <charconv>
 #include <cstring>
 #include <functional>
 #include <limits>
@@ -258,15 +259,10 @@ inline std::filesystem::path path_of_uri(const std::string& uri) {
   if (uri.compare(0, 5, "file:") != 0) return {};
   std::string path;
   for (std::size_t i = 5; i < uri.size(); ++i) {
-    const auto digit = [&](std::size_t k) {
-      const char c = k < uri.size() ? uri[k] : 'x';
-      return c >= '0' && c <= '9'   ? c - '0'
-             : c >= 'a' && c <= 'f' ? c - 'a' + 10
-             : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                    : -1;
-    };
-    if (uri[i] == '%' && digit(i + 1) >= 0 && digit(i + 2) >= 0) {
-      path += static_cast<char>(16 * digit(i + 1) + digit(i + 2));
+    const char* const digits = uri.c_str() + i + 1;
+    unsigned char code = 0;
+    if (uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2) {
+      path += static_cast<char>(code);
       i += 2;
     } else {
       path += uri[i];

@@ -226,8 +226,7 @@ std::vector<unsigned char> without_heat(const Spectrum& spectrum, const Rubber& 
   const MapPoints at = points_of(request, {0});
   const std::string text =
       text_of(friction(spectrum, rubber, model, adhesion, at.pressure, at.velocity).notes, request);
-  const MapFrame frame(spectrum, rubber, model, request);
-  return made(turns ? frame : frame.in_one_direction(), adhesion, request, text);
+  return made(MapFrame(spectrum, rubber, model, request, turns), adhesion, request, text);
 }
 
 }  // namespace
@@ -259,7 +258,7 @@ std::vector<unsigned char> build_friction_map(const Spectrum& spectrum, const Ru
       friction(spectrum, rubber, shift, heating, model, adhesion, at.pressure, at.velocity, at.temperature);
   refuse_folds(found);
   const MapHeat heat{&shift, &heating, adhesion, temperature, temperature[0]};
-  const MapFrame frame(spectrum, rubber, model, request, heat);
+  const MapFrame frame(spectrum, rubber, model, request, false, heat);
   return made(frame, adhesion, request, text_of(found.hot.notes, request),
               [&](const std::function<void(double)>& progress) {
                 MapRequest cold = request;

@@ -112,6 +112,7 @@ void MapTree::interpolate(std::size_t plane,
     if (leaf.child >= 0 || !leaf.needed) continue;
     const auto [hx, hz] = size(leaf);
     leaf.polynomial.resize(planes_);
+    std::array<double, 32> polynomial;
     for (std::size_t k = 0; k < 2; ++k) {
       // rows: value at both ends in x, slope in x at both; columns the same in z
       double m[4][4];
@@ -133,9 +134,11 @@ void MapTree::interpolate(std::size_t plane,
       double per_x = 1;
       for (std::size_t p = 0; p < 4; ++p, per_x /= hx) {
         double scale = per_x;
-        for (std::size_t j = 0; j < 4; ++j, scale /= hz) leaf.polynomial[plane][8 * j + 2 * p + k] = m[p][j] * scale;
+        for (std::size_t j = 0; j < 4; ++j, scale /= hz) polynomial[8 * j + 2 * p + k] = m[p][j] * scale;
       }
     }
+    leaf.changed = leaf.changed || leaf.polynomial[plane] != polynomial;
+    leaf.polynomial[plane] = polynomial;
   }
 }
 

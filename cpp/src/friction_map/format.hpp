@@ -32,6 +32,7 @@ class MapTree {
     std::int32_t child = -1;  // the first of two; -1: a leaf indeed
     bool in_x = false;        // which way it was halved
     bool needed = true;
+    bool changed = true;                                  // by `interpolate`, since its user said not
     std::vector<std::array<double, 32>> polynomial = {};  // of each plane, as in the file
   };
 

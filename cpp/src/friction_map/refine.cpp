@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "asperity/watch.hpp"
 #include "friction_map/format.hpp"
@@ -31,8 +32,8 @@ class Builder {
         slices_(frame, rtol, threads, progress),
         tree_(frame.x(), frame.cuts(), slices_.planes()) {}
 
-  /// Halves cells until lattices and unseen points agree; returns twice the largest error of both.
-  double refine() {
+  /// Halves cells until lattices and unseen points agree.
+  RefinedMap refine() && {
     for (;;) {
       do {
         interpolate();
@@ -41,17 +42,16 @@ class Builder {
       } while (halve_where(&Checked::on_lattice, lattice_share * rtol_));
       for (std::size_t n = 0; n < checked_.size(); ++n)
         if (Checked& cell = checked_[n]; wanted(n) && !cell.unseen) cell.unseen = unseen_error(n);
-      if (!halve_where(&Checked::unseen, rtol_ / 2)) return 2 * largest_error();
+      if (halve_where(&Checked::unseen, rtol_ / 2)) continue;
+      const double error = 2 * largest_error();
+      return {std::move(tree_), slices_.nodes(), error};
     }
   }
-  MapTree tree() && { return std::move(tree_); }
-  [[nodiscard]] const std::vector<double>& heights() const { return slices_.nodes(); }
 
  private:
-  /// What was found of the polynomial that a cell has.
+  /// Errors of a cell, where they have been found.
   struct Checked {
-    std::vector<std::array<double, 32>> polynomial;
-    std::optional<double> on_lattice, unseen;  // errors
+    std::optional<double> on_lattice, unseen;
   };
 
   [[nodiscard]] bool wanted(std::size_t node) {
@@ -68,8 +68,7 @@ class Builder {
     }
     checked_.resize(tree_.nodes().size());
     for (std::size_t n = 0; n < checked_.size(); ++n)
-      if (wanted(n) && checked_[n].polynomial != tree_.nodes()[n].polynomial)
-        checked_[n] = {tree_.nodes()[n].polynomial, {}, {}};
+      if (wanted(n) && std::exchange(tree_.nodes()[n].changed, false)) checked_[n] = {};
   }
 
   /// Values and derivatives at a corner on each plane, on a cut those of either side.
@@ -250,10 +249,7 @@ class Builder {
 }  // namespace
 
 RefinedMap refine(const MapFrame& frame, double rtol, unsigned threads, const std::function<void(double)>& progress) {
-  Builder builder(frame, rtol, threads, progress);
-  const double max_error = builder.refine();
-  std::vector<double> heights = builder.heights();
-  return {std::move(builder).tree(), std::move(heights), max_error};
+  return Builder(frame, rtol, threads, progress).refine();
 }
 
 }  // namespace asperity

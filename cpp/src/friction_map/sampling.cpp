@@ -14,7 +14,7 @@
 namespace asperity {
 
 MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request,
-                   std::optional<MapHeat> heat)
+                   bool turns, std::optional<MapHeat> heat)
     : spectrum_(spectrum),
       rubber_(rubber),
       model_(std::move(model)),
@@ -51,7 +51,7 @@ MapFrame::MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel 
   hysteresis_ = prony == nullptr || !prony->moduli().empty();
   const bool of_scan = std::holds_alternative<ScanContact>(model_.correction);
   directional_ = hysteresis_ && (of_scan || is_directional(spectrum_));
-  turns_ = is_directional(spectrum_) && !of_scan && !heat_;  // of a scan every direction has contacts of its own
+  turns_ = turns && is_directional(spectrum_) && !of_scan;  // of a scan every direction has contacts of its own
 }
 
 double MapFrame::velocity_at(double x) const { return std::clamp(std::exp(x), velocity_[0], velocity_[1]); }
@@ -215,12 +215,6 @@ MapFrame MapFrame::at_height(double height) const {
     other.model_.direction = other.unshifted_.direction = first_direction_ + height;
   else
     other.heat_->height = height;
-  return other;
-}
-
-MapFrame MapFrame::in_one_direction() const {
-  MapFrame other = *this;
-  other.turns_ = false;
   return other;
 }
 

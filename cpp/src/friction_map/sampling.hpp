@@ -146,8 +146,8 @@ void refuse_folds(const FlashFriction& friction);
 
 class MapFrame {
  public:
-  /// Refuses a box in which a part has no contact.
-  MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request,
+  /// `turns`: in all directions, where there is one. Refuses a box in which a part has no contact.
+  MapFrame(const Spectrum& spectrum, const Rubber& rubber, ContactModel model, const MapRequest& request, bool turns,
            std::optional<MapHeat> heat = {});
 
   /// The temperatures of the background that the map holds [K]; 0 without heat.
@@ -161,8 +161,6 @@ class MapFrame {
   [[nodiscard]] bool turns() const { return turns_; }
   /// Whether there are forces across the sliding.
   [[nodiscard]] bool directional() const { return directional_; }
-  /// The same in the direction of the model alone.
-  [[nodiscard]] MapFrame in_one_direction() const;
   /// The same of the force across over mu_H, beside zeros, in the place of the two functions.
   [[nodiscard]] MapFrame of_across() const;
   [[nodiscard]] const std::optional<Slant>& slant() const { return slant_; }

@@ -144,7 +144,7 @@ MapSample MapSlices::combined(const Combination& sum, std::span<const MapSample>
 }
 
 MapSample MapSlices::at(const MapPlace& place, double height) {
-  if (planes() == 1 && range_[0] == range_[1]) return intervals_[0].patches[0].at(place);
+  if (planes() == 1) return intervals_[0].patches[0].at(place);
   const Combination sum = combination(height);
   std::array<MapSample, n> samples;
   for (std::size_t i = 0; i < n; ++i) samples[i] = intervals_[sum.interval].patches[i].at(place);
