@@ -56,7 +56,6 @@ struct Parts {
 /// The loops of lookup_loops.inc for this machine's vector unit.
 struct MapLoops {
   decltype(&baseline::prepare) prepare = baseline::prepare;
-  decltype(&baseline::logarithms) logarithms = baseline::logarithms;
   decltype(&baseline::look_up) look_up = baseline::look_up;
   decltype(&baseline::look_up_slopes) look_up_slopes = baseline::look_up_slopes;
 };
@@ -65,9 +64,8 @@ const MapLoops& map_loops() {
   static const MapLoops chosen = [] {
     [[maybe_unused]] const VectorUnit unit = vector_unit();
 #ifdef __x86_64__
-    if (unit == VectorUnit::avx512)
-      return MapLoops{avx512::prepare, avx512::logarithms, avx512::look_up, avx512::look_up_slopes};
-    if (unit == VectorUnit::avx2) return MapLoops{avx2::prepare, avx2::logarithms, avx2::look_up, avx2::look_up_slopes};
+    if (unit == VectorUnit::avx512) return MapLoops{avx512::prepare, avx512::look_up, avx512::look_up_slopes};
+    if (unit == VectorUnit::avx2) return MapLoops{avx2::prepare, avx2::look_up, avx2::look_up_slopes};
 #endif
     return MapLoops{};
   }();
@@ -82,7 +80,7 @@ class FrictionMapBatch {
                    bool shifts_adhesion)
       : map_(map), columns_(points), outside_(outside), shifts_adhesion_(shifts_adhesion), tables_(tables_of(map)) {
     if (map.cold_) cold_ = tables_of(*map.cold_);
-    if (map.steps_ > 0 && !map.is_slanted_ && points.background.size() == 1 && n >= map.info_.cells)
+    if (map.info_.heat && map.steps_ > 0 && !map.is_slanted_ && points.background.size() == 1 && n >= map.info_.cells)
       share(points.background[0]);
   }
 
@@ -170,16 +168,8 @@ class FrictionMapBatch {
   /// Whether loops can look all of the points up: in the box, with temperatures that the map takes as they are.
   bool prepare(const Points& of, std::size_t n) {
     const bool is_unshifted = columns_.a_T.size() == 1 && columns_.a_T[0] == 1;
-    if (map_.cells_.empty() || map_.info_.turns || (map_.info_.heat && !(is_unshifted && !shifts_adhesion_)) ||
-        !loops_.prepare(map_.info_, of, n, block_))
-      return false;
-    loops_.logarithms(block_.x, block_.x, n);
-    loops_.logarithms(of.pressure, block_.ln_p, n);
-    block_.ln_v = block_.x;
-    if (shifts_adhesion_ || is_unshifted) return true;
-    if (has_adhesion()) loops_.logarithms(block_.speed, block_.speed, n);
-    block_.ln_v = block_.speed;
-    return true;
+    return !map_.cells_.empty() && !map_.info_.turns && (!map_.info_.heat || (is_unshifted && !shifts_adhesion_)) &&
+           loops_.prepare(map_.info_, of, n, is_unshifted || shifts_adhesion_ || !has_adhesion(), block_);
   }
 
   [[nodiscard]] bool has_adhesion() const { return map_.info_.shear_stress > 0; }
