@@ -187,16 +187,15 @@ inline Pair look_up(const double* table, PairOfBits i) noexcept { return Pair{ta
 constexpr double whole = 4503599627370496.0, rounding = 1.5 * whole;
 constexpr std::uint64_t bits_of_whole = 0x4330000000000000;
 
-/// ln of a positive normal number, or of a pair of them, to 5e-16 of the larger of it and 1, the same digits on every
-/// host: x = 2^k m, m = c (1 + r) with c from the table, |r| < 1 / 256.
-template <class Number>
-ASPERITY_MAP_INLINE inline Number ln(Number x) noexcept {
-  const auto u = bits(x), i = (u >> 45) & 127;
-  const Number k = from_bits((u >> 52) | bits_of_whole) - (whole + 1023),
-               m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
-  const Number r = m * look_up(tables.inverse, i) - 1, r2 = r * r;
-  const Number tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
-  return (k * 0.693147180559945309417 + look_up(tables.ln, i)) + (r + r2 * tail);
+/// ln of a positive normal number, to 5e-16 of the larger of it and 1, the same digits on every host:
+/// x = 2^k m, m = c (1 + r) with c from the table, |r| < 1 / 256.
+ASPERITY_MAP_INLINE inline double ln(double x) noexcept {
+  const std::uint64_t u = bits(x), i = (u >> 45) & 127;
+  const double k = from_bits((u >> 52) | bits_of_whole) - (whole + 1023);
+  const double m = from_bits((u & 0x000fffffffffffff) | 0x3ff0000000000000);
+  const double r = m * tables.inverse[i] - 1, r2 = r * r;
+  const double tail = (-1.0 / 2 + 1.0 / 3 * r) + r2 * ((-1.0 / 4 + 1.0 / 5 * r) + r2 * (-1.0 / 6 + 1.0 / 7 * r));
+  return (k * 0.693147180559945309417 + tables.ln[i]) + (r + r2 * tail);
 }
 
 constexpr double steps_per_unit = 128 / 0.693147180559945309417;  // of ln(2) / 128
@@ -229,7 +228,6 @@ ASPERITY_MAP_INLINE inline Number exp(Number x) noexcept {
   return (1 + (r + r2 * tail)) * from_bits(bits(look_up(tables.power, u & 127)) + ((u >> 7) << 52));  // times 2^n
 }
 #ifndef ASPERITY_MAP_PAIRS
-inline Pair ln(Pair x) noexcept { return {{ln(x[0]), ln(x[1])}}; }
 inline Pair exp(Pair x) noexcept { return {{exp(x[0]), exp(x[1])}}; }
 #endif
 
