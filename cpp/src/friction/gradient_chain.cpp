@@ -169,8 +169,8 @@ PointGradient GradientChain::operator()(const MuSlopes& mu, const ShiftGradient&
   result.spectrum = rows_(by_node, rings_ ? rings_->slopes() : none);
   add_law(mu, shift, by_node, at_q1, result);
   if (rings_) result.arguments.push_back(one(rings_->turned()));
+  // over the nodes of the modulus; I1 is linear in E and I2 a square
   scene_.modulus(integrals_, result.storage, result.loss);
-  // I1 is linear in E and I2 a square
   result.missed = std::fmax(std::fabs(result.storage.sum() + result.loss.sum() - homogeneous), std::fabs(beside));
   add_modulus(mu, shift, result);
   if (strain_) {
@@ -197,36 +197,26 @@ double GradientChain::by_frequency_of(const MuSlopes& mu, const ShiftGradient& s
   return 2 * mu.of.scale * shift.pressure * std::log(size(upper) / size(lower)) / std::log(upper / lower);
 }
 
-/// Over the rows of the modulus and the terms of a series. A p_T that knows |E| has it at one frequency.
+/// Over the rows of the modulus and the numbers of a series. A p_T that knows |E| has it at one frequency.
 void GradientChain::add_modulus(const MuSlopes& mu, const ShiftGradient& shift, PointGradient& result) const {
-  const auto* const series = std::get_if<PronySeries>(&scene_.rubber);
-  SeriesGradient terms;
-  if (series) terms = (*scene_.terms)(integrals_);
+  const bool series = scene_.terms.has_value();
+  VectorXd terms;
+  if (series) terms = (*scene_.terms)(result.storage, result.loss);
   if (shift.macro_wavenumber > 0) {
-    const double by_modulus = 2 * mu.of.scale * shift.pressure;  // d mu / d ln |E|
     const double w = shift.velocity * shift.macro_wavenumber;
     const std::complex<double> e = modulus(scene_.rubber, w);
-    const double square = std::norm(e);
-    scene_.modulus.add_at(w, by_modulus * e.real() * e.real() / square, by_modulus * e.imag() * e.imag() / square,
-                          result.storage, result.loss);
+    const Eigen::Vector2d parts =
+        2 * mu.of.scale * shift.pressure / std::norm(e) * Eigen::Vector2d(e.real() * e.real(), e.imag() * e.imag());
+    scene_.modulus.add_at(w, parts[0], parts[1], result.storage, result.loss);
+    if (series) terms += scene_.terms->at(w) * parts;
     const double part = by_frequency_of(mu, shift);
     result.by_frequency += part;
     result.by_temperature += part * shift.rate;
-    if (series) {
-      terms.equilibrium_modulus += by_modulus * series->equilibrium_modulus() * e.real() / square;
-      for (std::size_t k = 0; k < series->moduli().size(); ++k) {
-        const std::complex<double> x(0, w * series->relaxation_times()[k]), part_of_e = x / (1.0 + x);
-        const double modulus = series->moduli()[k];
-        terms.moduli[static_cast<Index>(k)] += by_modulus * modulus * (std::conj(e) * part_of_e).real() / square;
-        terms.relaxation_times[static_cast<Index>(k)] +=
-            by_modulus * modulus * (std::conj(e) * part_of_e / (1.0 + x)).real() / square;
-      }
-    }
   }
+  for (VectorXd* const of : {&result.storage, &result.loss}) *of = scene_.modulus.over_rows(*of);
   if (!series) return;
-  result.arguments.push_back(one(terms.equilibrium_modulus));
-  result.arguments.push_back(std::move(terms.moduli));
-  result.arguments.push_back(std::move(terms.relaxation_times));
+  const Index n = terms.size() / 2;
+  result.arguments.insert(result.arguments.end(), {terms.head(1), terms.segment(1, n), terms.tail(n)});
 }
 
 }  // namespace asperity

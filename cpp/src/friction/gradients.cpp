@@ -113,12 +113,12 @@ class Table {
                modulus_,
                terms_},
         of_rows_(weights_of(rows_)),
-        of_modulus_(weights_of(modulus_.angular_frequency())) {
+        of_modulus_(weights_of(modulus_.rows())) {
     if (scene_.law) add(law_arguments(*scene_.law));
     if (scene_.law && harmonics_ > 0) scene_.of_top = slopes_of_top(*scene_.law);
     if (harmonics_ > 0) add({"direction"});
     if (const auto* const series = std::get_if<PronySeries>(&rubber)) {
-      terms_.emplace(*series, lowest_, highest_);
+      terms_.emplace(*series, modulus_.nodes());
       add({"equilibrium_modulus"});
       add({"moduli", "relaxation_times"}, series->moduli().size());
     }
@@ -137,7 +137,7 @@ class Table {
   }
   void begin(std::size_t size, bool with_temperature) {
     g_.wavenumber = rows_;
-    g_.angular_frequency = modulus_.angular_frequency();
+    g_.angular_frequency = modulus_.rows();
     g_.spectrum.assign(size * rows_.size(), 0);
     for (auto* const density : {&g_.storage, &g_.loss}) density->assign(size * g_.angular_frequency.size(), 0);
     for (auto* const column : {&g_.pressure, &g_.velocity, &g_.error_estimate}) column->assign(size, 0);

@@ -12,8 +12,6 @@
 #include <numbers>
 #include <vector>
 
-#include "numerics/differences.hpp"
-
 namespace asperity {
 
 namespace {
@@ -25,29 +23,6 @@ struct Pair {
   double weight;  // E_k E_l, twice where k and l differ
 };
 
-/// Two terms whose times differ: `weight` (s_k - s_l) with 2 E_k E_l x_k x_l / (x_k^2 - x_l^2), and d ln weight / d ln(
-/// tau_l / tau_k).
-struct FarPair {
-  std::size_t k, l;
-  double weight, slope;
-};
-
-/// All pairs, each once.
-template <class Near, class Far>
-void visit_pairs(const PronySeries& series, Near near_pair, Far far_pair) {
-  const std::vector<double>&e = series.moduli(), &tau = series.relaxation_times();
-  for (std::size_t k = 0; k < e.size(); ++k) {
-    near_pair(Pair{k, k, e[k] * e[k]});
-    for (std::size_t l = 0; l < k; ++l) {
-      const double ratio = tau[l] / tau[k], apart = (1 - ratio) * (1 + ratio);
-      if (std::fabs(1 - ratio) < near)
-        near_pair(Pair{k, l, 2 * e[k] * e[l]});
-      else if (std::isfinite(apart))
-        far_pair(FarPair{k, l, 2 * e[k] * e[l] * ratio / apart, (1 + ratio * ratio) / apart});
-    }
-  }
-}
-
 }  // namespace
 
 void loss_part(const PronySeries& series, std::span<const double> w, std::span<double> part, std::span<double> slope) {
@@ -56,13 +31,20 @@ void loss_part(const PronySeries& series, std::span<const double> w, std::span<d
   using Block = Eigen::Array<double, lanes, Eigen::Dynamic>;
   const auto terms = static_cast<Eigen::Index>(series.relaxation_times().size());
   Eigen::RowVectorXd weight = Eigen::RowVectorXd::Zero(terms);
-  std::vector<Pair> pairs;
-  visit_pairs(
-      series, [&](const Pair& pair) { pairs.push_back(pair); },
-      [&](const FarPair& pair) {
-        weight[static_cast<Eigen::Index>(pair.k)] += pair.weight;
-        weight[static_cast<Eigen::Index>(pair.l)] -= pair.weight;
-      });
+  std::vector<Pair> pairs;  // those whose times differ have 2 E_k E_l x_k x_l / (x_k^2 - x_l^2) times s_k - s_l
+  const std::vector<double>&e = series.moduli(), &tau = series.relaxation_times();
+  for (std::size_t k = 0; k < e.size(); ++k) {
+    pairs.push_back({k, k, e[k] * e[k]});
+    for (std::size_t l = 0; l < k; ++l) {
+      const double ratio = tau[l] / tau[k], apart = (1 - ratio) * (1 + ratio);
+      if (std::fabs(1 - ratio) < near) {
+        pairs.push_back({k, l, 2 * e[k] * e[l]});
+      } else if (std::isfinite(apart)) {
+        weight[static_cast<Eigen::Index>(k)] += 2 * e[k] * e[l] * ratio / apart;
+        weight[static_cast<Eigen::Index>(l)] -= 2 * e[k] * e[l] * ratio / apart;
+      }
+    }
+  }
   const std::size_t n = w.size(), rows = n > 0 ? part.size() / n : 0;
   const auto near_pairs = std::ssize(pairs);
   Block x(lanes, terms), r, inverse, y, half, power;
@@ -107,76 +89,6 @@ void loss_part(const PronySeries& series, std::span<const double> w, std::span<d
       put((by_between * between + value * power_l).rowwise().sum() - over_terms(power), &part[m * n]);
     }
   }
-}
-
-namespace {
-
-/// The sum of K_m'' times `by`, from m = 1 on, of a pair of E_k E_l = 1.
-double of_pair(double x, double x_other, std::span<const double> by) {
-  const double r = std::sqrt(1 + x * x), s = std::sqrt(1 + x_other * x_other);
-  const double y = x / (r + 1), z = x_other / (s + 1), u = -y * y, v = -z * z;
-  const double by_between = 2 * (s / (r + 1)) / (s + 1);
-  double power = 1, between = 0, sum = 0;
-  for (const double one : by) {
-    between = u * between + power;
-    power *= v;
-    sum += one * (by_between * between + power);
-  }
-  return x / r * (x_other / s) / (r + s) * sum;
-}
-
-}  // namespace
-
-void loss_part_gradient(const PronySeries& series, std::span<const double> w, std::span<const double> by_part,
-                        std::span<double> moduli, std::span<double> relaxation_times) {
-  const std::vector<double>& tau = series.relaxation_times();
-  const std::size_t terms = tau.size();
-  std::vector<double> s(terms), rise(terms);  // sums of s_k and ds_k / d ln x
-  std::vector<Pair> pairs;
-  const auto add = [&](std::size_t k, double over_modulus, double over_time) {
-    moduli[k] += 2 * std::numbers::pi * over_modulus;
-    relaxation_times[k] += 2 * std::numbers::pi * over_time;
-  };
-  const auto far_pair = [&](const FarPair& pair) {
-    const double value = pair.weight * (s[pair.k] - s[pair.l]);
-    add(pair.k, value, pair.weight * rise[pair.k] - pair.slope * value);
-    add(pair.l, value, -pair.weight * rise[pair.l] + pair.slope * value);
-  };
-  std::vector<double> x(terms), r(terms);
-  visit_pairs(
-      series, [&](const Pair& pair) { pairs.push_back(pair); }, [](const FarPair&) {});
-  const std::size_t rows = w.empty() ? 0 : by_part.size() / w.size();
-  for (std::size_t i = 0; i < w.size(); ++i) {
-    const std::span<const double> by = by_part.subspan(i * rows, rows), by_harmonics = by.subspan(1);
-    if (std::ranges::all_of(by, [](double one) { return one == 0; })) continue;
-    for (std::size_t k = 0; k < terms; ++k) {
-      x[k] = std::fmin(w[i] * tau[k], largest_x);
-      r[k] = std::sqrt(1 + x[k] * x[k]);
-      const double y = x[k] / r[k], root = x[k] / (r[k] + 1);
-      s[k] += by[0] * y * root;
-      rise[k] += by[0] * y * y / r[k];
-      double power = 1 / r[k];
-      for (std::size_t m = 0; m < by_harmonics.size(); ++m) {
-        power *= -root * root;
-        s[k] -= by_harmonics[m] * power;
-        rise[k] -= by_harmonics[m] * power * (2 * static_cast<double>(m + 1) / r[k] - y * y);
-      }
-    }
-    for (const auto& [k, l, of] : pairs) {
-      const double a = x[k] / r[k], b = x[l] / r[l], both = r[k] + r[l], value = by[0] * of * a * b / both;
-      add(k, value, value * (1 - a * a - x[k] * a / both));
-      add(l, value, value * (1 - b * b - x[l] * b / both));
-      if (by_harmonics.empty()) continue;
-      const auto at = [&, k = k, l = l](double first, double second) {
-        return of_pair(x[k] * std::exp(first), x[l] * std::exp(second), by_harmonics);
-      };
-      const double of_both = of * at(0, 0);
-      add(k, of_both, of * slope_at_0([&](double t) { return at(t, 0); }));
-      add(l, of_both, of * slope_at_0([&](double t) { return at(0, t); }));
-    }
-  }
-  visit_pairs(
-      series, [](const Pair&) {}, far_pair);
 }
 
 void loss_part(const Rubber& rubber, std::span<const double> w, std::span<double> part) {

@@ -15,10 +15,6 @@ inline constexpr double largest_x = 1e140;
 /// room for, and the slope of the first over ln w where there is room for it.
 void loss_part(const PronySeries& series, std::span<const double> w, std::span<double> part,
                std::span<double> slope = {});
-/// Adds to slopes of a number over ln E_k and ln tau_k what it has through this part at each of `w`, beside each other
-/// through as many of its rows as there are.
-void loss_part_gradient(const PronySeries& series, std::span<const double> w, std::span<const double> by_part,
-                        std::span<double> moduli, std::span<double> relaxation_times);
 void loss_part(const Rubber& rubber, std::span<const double> w, std::span<double> part);
 
 /// A series without the range that it was fitted on: the parts of I1 and I2 from outside of the range cost more than I1

@@ -26,8 +26,8 @@ using std::numbers::pi;
 namespace {
 
 constexpr double settled = 1e-3;  // of u, below which kernels are their limits, and one row stands for all
-constexpr double step = std::numbers::ln10 / 5;  // of ln w between the rows of a series
-constexpr double longest = 0.5;                  // in ln w, between breaks
+constexpr double a_decade = 5;    // rows of a series
+constexpr double longest = 0.5;   // in ln w, between breaks
 
 /// Places in s = sqrt(ln(w / low) / ln(high / low)), Chebyshev's points of the first kind.
 Lagrange<6> chebyshev_places() {
@@ -62,32 +62,59 @@ ModulusGradient::ModulusGradient(const Rubber& rubber, double lowest, double hig
   if (const auto* const curve = std::get_if<MasterCurve>(&rubber))
     take_rows(*curve);
   else
-    take_hats(lowest, highest);
+    take_steps(std::get<PronySeries>(rubber), lowest, highest);
   for (Stretch& stretch : stretches_) {
     stretch.log_low = std::log(stretch.low);
     stretch.per_length = 1 / std::log(stretch.high / stretch.low);
     breaks_.push_back(stretch.low);
   }
+  first_ = stretch_at(lowest);
+  last_ = stretch_at(highest);
   take_integrals();
 }
 
-void ModulusGradient::take_hats(double lowest, double highest) {
-  const double first = lowest * settled, n = std::ceil(std::fmax(1, std::log(highest / first) / step));
-  for (double k = 0; k <= n; ++k) rows_.push_back(k == n ? highest : first * std::pow(highest / first, k / n));
-  for (std::size_t k = 0; k + 1 < rows_.size(); ++k) {
-    Stretch stretch{rows_[k], rows_[k + 1], static_cast<Index>(k), 2};
-    stretch.storage.topLeftCorner<2, 2>() << 1, -1, 0, 1;
+/// At fifths of decades, whatever the other points of a call are: down to where one mode, be it the slowest, has the
+/// same share of E' and of E'' at all lower frequencies.
+void ModulusGradient::take_steps(const PronySeries& series, double lowest, double highest) {
+  const auto row_below = [](double w) { return static_cast<int>(std::floor(a_decade * std::log10(w))); };
+  const double slowest = series.relaxation_times().empty() ? 0 : std::ranges::max(series.relaxation_times());
+  constexpr double relaxed = 1e-6;  // w tau, whose square is rounding
+  const int row = row_below(settled * lowest), begin = slowest > 0 ? std::min(row, row_below(relaxed / slowest)) : row,
+            end = row_below(highest) + 1;
+  first_row_ = row - begin;
+  for (int k = 3 * begin; k <= 3 * end; ++k) nodes_.push_back(std::pow(10, k / (3 * a_decade)));
+  for (std::size_t k = 0; k + 3 < nodes_.size(); k += 3) {
+    Stretch stretch{nodes_[k], nodes_[k + 3], static_cast<Index>(k), 4};
+    for (Index i = 0; i < 4; ++i) stretch.storage.row(i) = cubic_through(Eigen::RowVector4d::Unit(i));
     stretch.loss = stretch.storage;
     stretches_.push_back(stretch);
   }
+}
+
+std::vector<double> ModulusGradient::rows() const {
+  if (std::holds_alternative<MasterCurve>(rubber_)) return nodes_;
+  std::vector<double> result(breaks_.begin() + first_row_, breaks_.end());
+  result.push_back(nodes_.back());
+  return result;
+}
+
+VectorXd ModulusGradient::over_rows(const VectorXd& of_nodes) const {
+  if (std::holds_alternative<MasterCurve>(rubber_)) return of_nodes;
+  const Index below = 3 * first_row_, steps = (of_nodes.size() - below) / 3;
+  const auto one = of_nodes(Eigen::seqN(below + 1, steps, 3)), two = of_nodes(Eigen::seqN(below + 2, steps, 3));
+  VectorXd result = of_nodes(Eigen::seqN(below, steps + 1, 3));
+  result.head(steps) += (2 * one + two) / 3;
+  result.tail(steps) += (one + 2 * two) / 3;
+  result[0] += of_nodes.head(below).sum();
+  return result;
 }
 
 /// By differences of the curve itself, whose interpolant depends on two rows to each side at most: rows that stand five
 /// apart are moved together.
 void ModulusGradient::take_rows(const MasterCurve& curve) {
   constexpr std::size_t apart = 5;
-  rows_ = curve.angular_frequency();
-  const std::vector<double> x = logarithms(rows_);
+  nodes_ = curve.angular_frequency();
+  const std::vector<double> x = logarithms(nodes_);
   const auto changed_by = [&](const std::vector<double>& of, double by) {
     std::vector<Steffen> result;
     for (std::size_t colour = 0; colour < apart; ++colour) {
@@ -115,10 +142,10 @@ void ModulusGradient::take_rows(const MasterCurve& curve) {
     const double length = std::log(edges[i + 1] / edges[i]);
     const std::vector<double> breaks = breaks_between(length, before);
     before = length;
-    const auto at = static_cast<std::size_t>(std::ranges::upper_bound(rows_, edges[i]) - rows_.begin());
+    const auto at = static_cast<std::size_t>(std::ranges::upper_bound(nodes_, edges[i]) - nodes_.begin());
     // the line beyond an end has the slope of the end, and that has three rows
-    const std::size_t reach = at == 0 || at == rows_.size() ? 3 : 2;
-    const std::size_t begin = at > reach ? at - reach : 0, end = std::min(rows_.size(), at + reach);
+    const std::size_t reach = at == 0 || at == nodes_.size() ? 3 : 2;
+    const std::size_t begin = at > reach ? at - reach : 0, end = std::min(nodes_.size(), at + reach);
     for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
       const double high = k + 2 == breaks.size() ? edges[i + 1] : edges[i] * std::exp(breaks[k + 1]);
       Stretch stretch{edges[i] * std::exp(breaks[k]), high, static_cast<Index>(begin), static_cast<Index>(end - begin)};
@@ -231,7 +258,7 @@ void ModulusGradient::take_integrals() {
       add_far(stretch, nodes.back());
     }
   }
-  for (std::size_t i = 0; i < stretches_.size(); ++i) {
+  for (std::size_t i = first_; i <= last_; ++i) {
     Stretch& stretch = stretches_[i];
     while (stretches_[stretch.near].high <= settled * stretch.low) ++stretch.near;
     stretch.window = stretches_[stretch.near].first;
@@ -263,53 +290,62 @@ void ModulusGradient::take_integrals() {
   }
 }
 
-PlaceSlopes::PlaceSlopes(std::size_t places, const IntegralSlopes& of) : of_(of), columns_(places) {
-  std::size_t most = of.mean.size();
-  for (const IntegralSlopes::Wave& wave : of.waves) most = std::max(most, wave.rings.size());
-  for (auto* const all : {&i1, &storage, &loss})
-    if (all != &loss || of.parted) all->setZero(static_cast<Index>(places), static_cast<Index>(most) + 1);
-}
-
-void PlaceSlopes::finish() {
-  const auto count = static_cast<Index>(of_.mean.size());
-  const Eigen::Map<const Eigen::RowVectorXd> mean(of_.mean.data(), count);
-  for (auto* const all : {&i1, &storage, &loss})
-    if (all->cols() > 0) all->leftCols(count).noalias() += all->rightCols(1) * mean;
-}
-
-Index PlaceSlopes::columns(std::size_t first, std::size_t n) const {
-  return static_cast<Index>(std::ranges::max(std::span(columns_).subspan(first, n)));
-}
-
+/// First over the polynomials' values at places, and with directions over a_m times these: a column a stretch, its
+/// places of each harmonic from 0 on. What waves with the rings of all roughness have comes last, and is multiplied by
+/// these in the end.
 void ModulusGradient::operator()(const IntegralSlopes& of, VectorXd& storage, VectorXd& loss) const {
-  storage = loss = VectorXd::Zero(static_cast<Index>(rows_.size()));
+  storage = loss = VectorXd::Zero(std::ssize(nodes_));
   if (of.waves.empty()) return;
   const auto [lowest, highest] = std::ranges::minmax(of.waves, {}, &IntegralSlopes::Wave::w);
-  const std::size_t begin = stretch_at(lowest.w), end = stretch_at(highest.w) + 1;
-  PlaceSlopes at(places * (end - begin), of);
+  const auto stretch_of = [&](double w) { return std::clamp(stretch_at(w), first_, last_); };
+  const std::size_t begin = stretch_of(lowest.w), end = stretch_of(highest.w) + 1;
+  Index most = std::ssize(of.mean);
+  for (const IntegralSlopes::Wave& wave : of.waves) most = std::max(most, std::ssize(wave.rings));
+  Eigen::MatrixXd by_i1 = Eigen::MatrixXd::Zero(places * (most + 1), static_cast<Index>(end - begin)),
+                  by_storage = by_i1, by_loss;
+  if (of.parted) by_loss = by_i1;
+  std::vector<Index> harmonics(end - begin);
+  static constexpr double alone = 1;
   std::size_t k = begin;
   for (const IntegralSlopes::Wave& wave : of.waves) {
-    if (wave.w < breaks_[k] || (k + 1 < breaks_.size() && wave.w >= breaks_[k + 1])) k = stretch_at(wave.w);
-    at.add(wave, lagrange(std::sqrt(place(stretches_[k], wave.log_w))), places * (k - begin));
+    if (wave.w < breaks_[k] || (k + 1 < breaks_.size() && wave.w >= breaks_[k + 1])) k = stretch_of(wave.w);
+    const auto share = lagrange(std::sqrt(place(stretches_[k], wave.log_w)));
+    const bool own = !wave.rings.empty();
+    const std::span<const double> rings = own ? wave.rings : std::span(&alone, 1);
+    const auto add_to = [&](Eigen::MatrixXd& all, double by) {
+      double* to = &all(own ? 0 : places * most, static_cast<Index>(k - begin));
+      for (const double ring : rings)
+        for (const double one : share) *to++ += by * ring * one;
+    };
+    add_to(by_i1, wave.i1);
+    add_to(by_storage, wave.storage);
+    if (of.parted) add_to(by_loss, wave.loss);
+    harmonics[k - begin] = std::max(harmonics[k - begin], std::ssize(own ? rings : of.mean));
   }
-  at.finish();
-  const Eigen::MatrixXd& of_loss = of.parted ? at.loss : at.storage;
+  for (auto* const all : {&by_i1, &by_storage, &by_loss})
+    for (Index m = 0; m < std::ssize(of.mean) && all->size() > 0; ++m)
+      all->middleRows(places * m, places) += of.mean[static_cast<std::size_t>(m)] * all->bottomRows(places);
+  const Eigen::MatrixXd& of_loss = of.parted ? by_loss : by_storage;
   std::vector<Eigen::Vector3d> settled_by(stretches_.size() + 1, Eigen::Vector3d::Zero());
   for (std::size_t i = begin; i < end; ++i) {
     const Stretch& stretch = stretches_[i];
-    const auto first = static_cast<Index>(places * (i - begin));
-    const Index n = stretch.i2_storage.rows(), columns = at.columns(places * (i - begin), 1);
-    const auto here = [&](const Eigen::MatrixXd& all) { return all.block(first, 0, places, columns).reshaped(); };
-    storage.segment(stretch.window, n).noalias() += stretch.i2_storage.leftCols(places * columns) * here(at.storage);
-    loss.segment(stretch.window, n).noalias() += stretch.i2_loss.leftCols(places * columns) * here(of_loss);
-    loss.segment(stretch.window, n).noalias() += stretch.i1_loss.leftCols(places * columns) * here(at.i1);
-    for (Index m = 0; m < columns; ++m)
-      for (Index p = 0; p < places; ++p) {  // far above, cos(2 m phi) is (-1)^m
-        const double inverse = stretch.inverse_w[static_cast<std::size_t>(p)], size = m == 0 ? inverse : 2 * inverse,
-                     part = m % 2 == 0 ? size : -size;
-        settled_by[stretch.near] += Eigen::Vector3d(part * at.storage(first + p, m), part * of_loss(first + p, m),
-                                                    part * inverse * at.i1(first + p, m));
-      }
+    const auto column = static_cast<Index>(i - begin);
+    const Index rows = stretch.i2_storage.rows(), count = harmonics[i - begin], here = places * count;
+    const auto add = [&](VectorXd& to, const Eigen::MatrixXd& known, const Eigen::MatrixXd& by) {
+      to.segment(stretch.window, rows).noalias() += known.leftCols(here) * by.col(column).head(here);
+    };
+    add(storage, stretch.i2_storage, by_storage);
+    add(loss, stretch.i2_loss, of_loss);
+    add(loss, stretch.i1_loss, by_i1);
+    for (Index at = 0; at < here; ++at) {  // far above, cos(2 m phi) is (-1)^m
+      const Index m = at / places;
+      const double inverse = stretch.inverse_w[static_cast<std::size_t>(at % places)], part = (m == 0       ? 1
+                                                                                               : m % 2 == 0 ? 2
+                                                                                                            : -2) *
+                                                                                              inverse;
+      settled_by[stretch.near] +=
+          part * Eigen::Vector3d(by_storage(at, column), of_loss(at, column), inverse * by_i1(at, column));
+    }
   }
   Eigen::Vector3d by = Eigen::Vector3d::Zero();
   for (std::size_t i = end; i-- > 0;) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -23,64 +22,29 @@ struct IntegralSlopes {
   bool parted = false;           // E'' has not the same factor in I2 as E'
 };
 
-/// The same over polynomials' values at places, and with directions over a_m times these: a row a place, a column a
-/// harmonic from 0 on. What waves with the rings of all roughness have is multiplied by these in the end.
-class PlaceSlopes {
- public:
-  PlaceSlopes(std::size_t places, const IntegralSlopes& of);
-  /// A wave with these shares of places that follow each other.
-  template <std::size_t n>
-  void add(const IntegralSlopes::Wave& wave, const std::array<double, n>& share, std::size_t first);
-  void finish();
-  /// How many columns matter of waves whose first place is one of these.
-  [[nodiscard]] Eigen::Index columns(std::size_t first, std::size_t n) const;
-
-  Eigen::MatrixXd i1, storage, loss;  // the last where E' and E'' are parted
-
- private:
-  const IntegralSlopes& of_;
-  std::vector<std::size_t> columns_;
-};
-
-template <std::size_t n>
-void PlaceSlopes::add(const IntegralSlopes::Wave& wave, const std::array<double, n>& share, std::size_t first) {
-  static constexpr double alone = 1;
-  const bool own = !wave.rings.empty();
-  const std::span<const double> rings = own ? wave.rings : std::span(&alone, 1);
-  const auto places = static_cast<std::size_t>(i1.rows());
-  const auto add_to = [&](Eigen::MatrixXd& all, double by) {
-    double* to = all.data() + first + (own ? 0 : places * (static_cast<std::size_t>(all.cols()) - 1));
-    for (const double ring : rings) {
-      const double part = by * ring;
-      for (std::size_t p = 0; p < n; ++p) to[p] += part * share[p];
-      to += places;
-    }
-  };
-  add_to(i1, wave.i1);
-  add_to(storage, wave.storage);
-  if (of_.parted) add_to(loss, wave.loss);
-  columns_[first] = std::max(columns_[first], (own ? wave.rings : of_.mean).size());
-}
-
-/// Rows of a modulus at rising angular frequencies: those of a master curve, or of a Prony series steps of ln w between
-/// which ln E' and ln E'' change linearly. With the integrals of a number over E at the rows known once, a point takes
-/// three products of a matrix and a vector.
+/// Slopes over a modulus at nodes, rising angular frequencies: the rows of a master curve, or of a Prony series the
+/// ends and the thirds of equal steps of ln w, between which ln E' and ln E'' change as cubics do. With the integrals
+/// of a number over E at the nodes known once, a point takes three products of a matrix and a vector.
 class ModulusGradient {
  public:
   /// For integrals at frequencies in [lowest, highest] [rad/s], and so many harmonics beside them.
   ModulusGradient(const Rubber& rubber, double lowest, double highest, std::size_t harmonics = 0);
 
-  [[nodiscard]] const std::vector<double>& angular_frequency() const { return rows_; }
-  /// The slopes of a number over ln E' and ln E'' of each row, from those over integrals at frequencies, which are held
-  /// to the range.
+  [[nodiscard]] const std::vector<double>& nodes() const { return nodes_; }
+  /// The slopes of a number over ln E' and ln E'' at each node, from those over integrals at frequencies, which are
+  /// held to the range.
   void operator()(const IntegralSlopes& of, Eigen::VectorXd& storage, Eigen::VectorXd& loss) const;
-  /// The slopes of ln E' and ln E'' at one frequency over those of the rows, times these factors.
+  /// The slopes of ln E' and ln E'' at one frequency over those at the nodes, times these factors.
   void add_at(double w, double by_storage, double by_loss, Eigen::VectorXd& storage, Eigen::VectorXd& loss) const;
+  /// Of a master curve its own, of a series the ends of steps.
+  [[nodiscard]] std::vector<double> rows() const;
+  /// From slopes over the nodes to those over the rows, between which ln E' and ln E'' of a series change linearly.
+  [[nodiscard]] Eigen::VectorXd over_rows(const Eigen::VectorXd& of_nodes) const;
 
  private:
   static constexpr int places = 6;     // of the integrals between two breaks
-  static constexpr int most_rows = 6;  // that a modulus depends on between two breaks
-  /// Between two breaks the slopes of ln E' and ln E'' over those rows are cubics of x = ln(w / low) / ln(high / low).
+  static constexpr int most_rows = 6;  // nodes that a modulus depends on between two breaks
+  /// Between two breaks the slopes of ln E' and ln E'' over those nodes are cubics of x = ln(w / low) / ln(high / low).
   struct Stretch {
     double low, high;  // [rad/s]
     Eigen::Index first, count;
@@ -95,14 +59,14 @@ class ModulusGradient {
     // what it has itself in those of w far above, times w, w and w^2
     Eigen::Matrix<double, most_rows, 3> far = decltype(far)::Zero();
   };
-  /// A frequency of a rule: its weight, and what E'^2 and E''^2, E'' have there for each of the rows.
+  /// A frequency of a rule: its weight, and what E'^2 and E''^2, E'' have there for each of the nodes of E.
   struct Node {
     double w, weight, loss;
     Eigen::Index first, count;
     Eigen::Matrix<double, most_rows, 1> storage_square, loss_square;
   };
   [[nodiscard]] static double place(const Stretch& stretch, double log_w);
-  void take_hats(double lowest, double highest);
+  void take_steps(const PronySeries& series, double lowest, double highest);
   void take_rows(const MasterCurve& curve);
   void take_integrals();
   [[nodiscard]] Node node_at(const Rubber& rubber, double w, double weight) const;
@@ -111,8 +75,10 @@ class ModulusGradient {
   [[nodiscard]] std::size_t stretch_at(double w) const;
 
   const Rubber& rubber_;
-  std::vector<double> rows_, breaks_;
+  std::vector<double> nodes_, breaks_;
   std::vector<Stretch> stretches_;
+  std::size_t first_ = 0, last_ = 0;                // at which integrals are asked for
+  std::ptrdiff_t first_row_ = 0;                    // of a series: what lies below is told with it
   Eigen::Index harmonics_;                          // I1 and I2 among them
   Eigen::MatrixXd i2_storage_, i2_loss_, i1_loss_;  // of one place, a column a harmonic
 };
