@@ -32,9 +32,8 @@ class RealTransform {  // n real numbers to n / 2 + 1 modes, or back; the input 
   void operator()(std::complex<T>* in, T* out) const;
 
  private:
-  std::size_t n_;
+  [[maybe_unused]] std::size_t n_;
   std::shared_ptr<void> plan_;
-  std::vector<std::complex<T>> twiddles_;  // where it goes by a complex transform of half the length
 };
 
 /// Transforms of `width` columns of n modes, as many as a cache line has of each row; the input is overwritten.

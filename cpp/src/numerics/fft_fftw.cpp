@@ -2,15 +2,11 @@
 // M. Frigo and S. G. Johnson, Proc. IEEE 93, 216 (2005).
 #include <fftw3.h>
 
-#include <cstring>
 #include <mutex>
-#include <numbers>
 #include <string>
-#include <type_traits>
 
 #include "numerics/arguments.hpp"
 #include "numerics/fft.hpp"
-#include "numerics/simd.hpp"
 
 namespace asperity {
 
@@ -32,7 +28,6 @@ struct Fftw;
   struct Fftw<T> {                                               \
     using Complex = fftw##_complex;                              \
     using Plan = fftw##_plan;                                    \
-    static constexpr auto complex = fftw##_plan_dft_1d;          \
     static constexpr auto many = fftw##_plan_many_dft;           \
     static constexpr auto real = fftw##_plan_dft_r2c_1d;         \
     static constexpr auto real_inverse = fftw##_plan_dft_c2r_1d; \
@@ -73,89 +68,20 @@ std::shared_ptr<void> planned(Make make) {
 
 }  // namespace
 
-// FFTW's real transforms of floats take three times as long as complex ones of half the length. So even rows z of
-// floats go as x_j = z_2j + i z_2j+1, X being the transform of h = n / 2 numbers, and
-//   Z_k = (X_k + conj X_h-k) / 2 + t_k (X_k - conj X_h-k),  t_k = -i / 2 exp(-2 pi i k / n),
-// where k and h - k share their terms: Z_h-k = conj((X_k + conj X_h-k) / 2 - t_k (X_k - conj X_h-k)).
 template <class T>
 RealTransform<T>::RealTransform(std::size_t n, Direction direction) : n_(n) {
   const Scratch<T> numbers(n);
   const Scratch<std::complex<T>> modes(n / 2 + 1);
   const auto flags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
-  const bool forward = direction == Direction::forward;
-  if (std::is_same_v<T, float> && n % 2 == 0) {
-    for (std::size_t k = 0; k <= n / 4; ++k)
-      twiddles_.emplace_back(
-          std::polar(forward ? 0.5 : 1, (forward ? -std::numbers::pi : std::numbers::pi) *
-                                            (0.5 + 2 * static_cast<double>(k) / static_cast<double>(n))));
-    auto* const pairs = reinterpret_cast<std::complex<T>*>(numbers.data());
-    plan_ = planned<Fftw<T>>([&] {
-      return forward ? Fftw<T>::complex(side(n / 2), raw(pairs), raw(modes.data()), FFTW_FORWARD, flags)
-                     : Fftw<T>::complex(side(n / 2), raw(modes.data()), raw(pairs), FFTW_BACKWARD, flags);
-    });
-  } else {
-    plan_ = planned<Fftw<T>>([&] {
-      return forward ? Fftw<T>::real(side(n), numbers.data(), raw(modes.data()), flags)
-                     : Fftw<T>::real_inverse(side(n), raw(modes.data()), numbers.data(), flags);
-    });
-  }
+  plan_ = planned<Fftw<T>>([&] {
+    return direction == Direction::forward ? Fftw<T>::real(side(n), numbers.data(), raw(modes.data()), flags)
+                                           : Fftw<T>::real_inverse(side(n), raw(modes.data()), numbers.data(), flags);
+  });
 }
-
-namespace {
-
-Quad load(const std::complex<float>* from) {
-  Quad v;
-  std::memcpy(&v, from, sizeof v);
-  return v;
-}
-void store(Quad v, std::complex<float>* to) { std::memcpy(static_cast<void*>(to), &v, sizeof v); }
-
-/// half (Z_k + conj Z_h-k) + t_k (Z_k - conj Z_h-k) for k from 1 to h - 1, in place.
-void exchange(std::complex<float>* z, std::size_t h, const std::complex<float>* twiddle, float half) {
-  const Quad conjugate = {1, -1, 1, -1};
-  std::size_t k = 1;
-  for (; 2 * k + 2 < h; k += 2) {
-    const Quad a = load(z + k), mirror = load(z + h - k - 1), t = load(twiddle + k);
-    const Quad b = __builtin_shufflevector(mirror, mirror, 2, 3, 0, 1) * conjugate;
-    const Quad mean = half * (a + b), d = a - b;
-    const Quad turned = __builtin_shufflevector(t, t, 0, 0, 2, 2) * d - conjugate *
-                                                                            __builtin_shufflevector(t, t, 1, 1, 3, 3) *
-                                                                            __builtin_shufflevector(d, d, 1, 0, 3, 2);
-    const Quad low = mean + turned, high = (mean - turned) * conjugate;
-    store(low, z + k);
-    store(__builtin_shufflevector(high, high, 2, 3, 0, 1), z + h - k - 1);
-  }
-  for (; 2 * k <= h; ++k) {
-    const std::complex<float> a = z[k], b = std::conj(z[h - k]), turned = twiddle[k] * (a - b);
-    z[h - k] = std::conj(half * (a + b) - turned);
-    z[k] = half * (a + b) + turned;
-  }
-}
-
-/// From the transform of h pairs to the h + 1 modes of the 2 h numbers, in place.
-void untangle(std::complex<float>* z, std::size_t h, const std::complex<float>* twiddle) {
-  z[h] = z[0].real() - z[0].imag();
-  z[0] = z[0].real() + z[0].imag();
-  exchange(z, h, twiddle, 0.5F);
-}
-
-/// The way back, times 2: X_k = (Z_k + conj Z_h-k) + 2 conj t_k (Z_k - conj Z_h-k).
-void tangle(std::complex<float>* z, std::size_t h, const std::complex<float>* twiddle) {
-  z[0] = {z[0].real() + z[h].real(), z[0].real() - z[h].real()};
-  exchange(z, h, twiddle, 1);
-}
-
-}  // namespace
 
 template <class T>
 void RealTransform<T>::operator()(T* in, std::complex<T>* out) const {
-  const auto plan = static_cast<typename Fftw<T>::Plan>(plan_.get());
-  if constexpr (std::is_same_v<T, float>)
-    if (!twiddles_.empty()) {
-      Fftw<T>::run(plan, raw(reinterpret_cast<std::complex<T>*>(in)), raw(out));
-      return untangle(out, n_ / 2, twiddles_.data());
-    }
-  Fftw<T>::run_real(plan, in, raw(out));
+  Fftw<T>::run_real(static_cast<typename Fftw<T>::Plan>(plan_.get()), in, raw(out));
 }
 
 template <class T>
@@ -166,13 +92,7 @@ void RealTransform<T>::operator()(T* in, std::size_t, std::complex<T>* out, std:
 
 template <class T>
 void RealTransform<T>::operator()(std::complex<T>* in, T* out) const {
-  const auto plan = static_cast<typename Fftw<T>::Plan>(plan_.get());
-  if constexpr (std::is_same_v<T, float>)
-    if (!twiddles_.empty()) {
-      tangle(in, n_ / 2, twiddles_.data());
-      return Fftw<T>::run(plan, raw(in), raw(reinterpret_cast<std::complex<T>*>(out)));
-    }
-  Fftw<T>::run_inverse(plan, raw(in), out);
+  Fftw<T>::run_inverse(static_cast<typename Fftw<T>::Plan>(plan_.get()), raw(in), out);
 }
 
 template <class T>

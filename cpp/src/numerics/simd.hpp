@@ -14,7 +14,6 @@
 namespace asperity {
 
 using Pair = double __attribute__((vector_size(16)));
-using Quad = float __attribute__((vector_size(16)));  // two complex floats
 
 /// The vector units that loops are compiled for, each with all that the one before it has.
 enum class VectorUnit { baseline, avx2, avx512 };
