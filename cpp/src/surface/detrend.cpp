@@ -7,7 +7,6 @@
 #include "asperity/watch.hpp"
 #include "numerics/dense.hpp"
 #include "numerics/parallel_for.hpp"
-#include "numerics/simd.hpp"
 #include "surface/rows.hpp"
 
 namespace asperity {
@@ -28,31 +27,15 @@ struct RowSums {
   double power[5] = {}, height[3] = {};
 };
 
-/// Where every point is measured; the powers are the same in all rows. Every eighth point has sums of its own: a
-/// single one would wait for each addition to end.
-template <bool curved, class T>
-void add_heights(RowSums& sums, const T* row, const double* u, std::size_t n, double anchor) {
-  constexpr std::size_t lanes = 4;
-  Pair z0[lanes] = {}, z1[lanes] = {}, z2[lanes] = {};
-  const auto add = [&](std::size_t lane, Pair z, Pair at) {
-    z0[lane] += z;
-    z1[lane] += at * z;
-    if constexpr (curved) z2[lane] += at * at * z;
-  };
-  const std::size_t whole = n / (2 * lanes) * (2 * lanes);
-  for (std::size_t x = 0; x < whole; x += 2 * lanes)
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const std::size_t i = x + 2 * lane;
-      add(lane, Pair{row[i] - anchor, row[i + 1] - anchor}, Pair{u[i], u[i + 1]});
-    }
-  for (std::size_t x = whole; x < n; ++x) add(0, Pair{row[x] - anchor, 0}, Pair{u[x], 0});
-  const auto total = [](const Pair* z) {
-    const Pair sum = (z[0] + z[1]) + (z[2] + z[3]);
-    return sum[0] + sum[1];
-  };
-  sums.height[0] = total(z0);
-  sums.height[1] = total(z1);
-  sums.height[2] = total(z2);
+/// Where every point is measured; the powers are the same in all rows.
+template <class T>
+void add_heights(RowSums& sums, const T* row, const std::vector<double>& along, double anchor, bool curved) {
+  const auto n = std::ssize(along);
+  const auto u = Eigen::ArrayXd::Map(along.data(), n);
+  const Eigen::ArrayXd z = Eigen::ArrayX<T>::Map(row, n).template cast<double>() - anchor;
+  sums.height[0] = z.sum();
+  sums.height[1] = (u * z).sum();
+  if (curved) sums.height[2] = (u.square() * z).sum();
 }
 
 template <class T>
@@ -115,8 +98,7 @@ Trend::Trend(const HeightMap& map, Detrend order, unsigned threads)
           for (std::size_t y = begin; y < end; ++y) {
             heed();
             if (complete)
-              curved ? add_heights<true>(sums, read(y), u_.data(), u_.size(), anchor_)
-                     : add_heights<false>(sums, read(y), u_.data(), u_.size(), anchor_);
+              add_heights(sums, read(y), u_, anchor_, curved);
             else
               sums = measured_sums(read(y), u_, anchor_);
             contributions[part].add(sums, v_[y]);
