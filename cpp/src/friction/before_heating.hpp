@@ -9,6 +9,10 @@
 
 namespace asperity {
 
+/// What is asked of friction and its slopes alike.
+void check_points(const ContactModel& model, const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
+                  std::span<const double> velocity, unsigned threads);
+
 /// As `friction` at temperatures; `heated`: the notes do not say that heat is left out.
 Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber, const TemperatureShift& shift,
                                  const ContactModel& model, const std::optional<Adhesion>& adhesion,

@@ -262,14 +262,14 @@ Friction solve_groups(const Spectrum& spectrum, const ContactModel& model, const
   return f;
 }
 
+}  // namespace
+
 void check_points(const ContactModel& model, const std::optional<Adhesion>& adhesion, std::span<const double> pressure,
                   std::span<const double> velocity, unsigned threads) {
   check_contact(model, pressure, velocity);
   if (adhesion) validate(*adhesion);
   if (threads == 0) throw InvalidInput(argument("threads") + " = " + word("0") + must_be() + "1 or more");
 }
-
-}  // namespace
 
 void add_decades(Contributions& c, std::size_t i, double velocity, double whole, std::span<const PanelSum> shares) {
   const std::size_t m = c.decade_edges.size() - 1;

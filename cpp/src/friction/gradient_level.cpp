@@ -133,8 +133,8 @@ PointGradient GradientLevel::operator()(const GradientPoint& point, const ShiftG
   const double root = 1 / (point.pressure * shift.p);
   theory_->evaluate(root * root, {});
 
-  const double nu = scene_.model.poisson_ratio, by_part = 4 * (1 - nu * nu) * point.pressure;
-  mu_.by_area = scene_.adhesion ? adhesion_per_share(*scene_.adhesion, point.pressure, point.velocity) : 0;
+  const double nu = scene_.model.poisson_ratio, by_part = 4 * (1 - nu * nu) * point.pressure * point.hysteresis;
+  mu_.by_area = scene_.adhesion ? point.area * adhesion_per_share(*scene_.adhesion, point.pressure, point.velocity) : 0;
   mu_.g = theory_->g();
   theory_->gradient({VectorXd::Constant(static_cast<Index>(n), by_part), mu_.by_area, 0}, mu_.of);
   PointGradient result = chain_(mu_, shift);

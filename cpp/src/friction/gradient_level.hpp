@@ -16,6 +16,7 @@ struct GradientPoint {
   double a_T = 1;                                   // without heat
   std::optional<double> shift_rate = std::nullopt;  // d ln a_T / dT [1/K], where there is a temperature
   double temperature = 0;                           // [K], with heat
+  double hysteresis = 1, area = 1;                  // those of a scan's contact over those of the theory
 };
 
 /// The slopes of ln p_T with the velocity times a_T, of which d ln a_T / dT is the rate and `along` d ln a_T / d ln q

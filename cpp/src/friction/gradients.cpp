@@ -80,10 +80,8 @@ double apart(const PointGradient& a, const PointGradient& b) {
 
 void check(const Spectrum& spectrum, const ContactModel& model, const std::optional<Adhesion>& adhesion,
            std::span<const double> pressure, std::span<const double> velocity, unsigned threads) {
-  check_contact(model, pressure, velocity);
+  check_points(model, adhesion, pressure, velocity, threads);
   validate(spectrum);
-  if (adhesion) validate(*adhesion);
-  if (threads == 0) throw InvalidInput(argument("threads") + " = " + word("0") + must_be() + "1 or more");
   check_gauss(model.method, "with gradients, which GSL's methods do not give");
 }
 
@@ -222,15 +220,6 @@ std::vector<double> times(std::span<const double> values, double log_factor) {
   return result;
 }
 
-/// All vectors that have numbers of points, and how many of each.
-template <class Visit>
-void visit_slopes(Gradients& g, Visit visit) {
-  for (auto* const row :
-       {&g.spectrum, &g.storage, &g.loss, &g.pressure, &g.velocity, &g.temperature, &g.error_estimate})
-    visit(*row);
-  for (Gradients::OfArgument& one : g.arguments) visit(one.values);
-}
-
 /// By which p and v move in the logarithm, and T [K], to tell the slopes of a scan.
 struct Steps {
   double pressure, velocity, temperature;
@@ -257,30 +246,16 @@ Gradients solve_or_scan(const Spectrum& spectrum, const Rubber& rubber, const Co
                         const std::optional<Adhesion>& adhesion, std::size_t points, PointOf point_of,
                         FrictionOf friction_of, unsigned threads) {
   const ScanFriction engine(spectrum, rubber, model);
-  const auto of = [&](const std::optional<Adhesion>& with) {
-    return solve(engine.spectrum(), rubber, engine.model(), with, points, point_of, threads);
-  };
-  Gradients g = of(adhesion);
-  if (!engine.of_scan()) return g;
-  Gradients without = of(std::nullopt);
+  if (!engine.of_scan()) return solve(spectrum, rubber, model, adhesion, points, point_of, threads);
   const Friction rule = friction_of(engine.spectrum(), engine.model(), 0, 0, 0),
                  scan = friction_of(spectrum, model, 0, 0, 0);
-  std::vector<std::vector<double>*> of_hysteresis;
-  visit_slopes(without, [&](std::vector<double>& row) { of_hysteresis.push_back(&row); });
-  std::size_t index = 0;
-  visit_slopes(g, [&](std::vector<double>& row) {
-    const bool of_both = index < of_hysteresis.size();  // the numbers of the adhesion stand last
-    const std::size_t n = row.size() / points;
-    for (std::size_t i = 0; i < points; ++i) {
-      const double by_mu = rule.hysteresis[i] > 0 ? scan.hysteresis[i] / rule.hysteresis[i] : 1,
-                   by_area = scan.contact_area[i] / rule.contact_area[i];
-      for (std::size_t k = i * n; k < (i + 1) * n; ++k) {
-        const double hysteresis = of_both ? (*of_hysteresis[index])[k] : 0;
-        row[k] = by_mu * hysteresis + by_area * (row[k] - hysteresis);
-      }
-    }
-    ++index;
-  });
+  const auto with_ratios = [&](std::size_t i) {
+    GradientPoint point = point_of(i);
+    if (rule.hysteresis[i] > 0) point.hysteresis = scan.hysteresis[i] / rule.hysteresis[i];
+    point.area = scan.contact_area[i] / rule.contact_area[i];
+    return point;
+  };
+  Gradients g = solve(engine.spectrum(), rubber, engine.model(), adhesion, points, with_ratios, threads);
   take_differences(
       g, [&](double p, double v, double t) { return friction_of(spectrum, model, p, v, t); }, between_contacts);
   return g;
@@ -355,11 +330,11 @@ Gradients gradients(const Spectrum& spectrum, const Rubber& rubber, const Temper
       return friction_of(spectrum, model, log_p, log_v, more);
     };
     const Friction of_scan = scan_at(0, 0, 0), rule = friction_of(scan.spectrum(), scan.model(), 0, 0, 0);
-    visit_slopes(g, [&](std::vector<double>& row) {
-      const std::size_t n = row.size() / rule.mu.size();
-      for (std::size_t k = 0; k < row.size(); ++k)
-        row[k] *= rule.mu[k / n] > 0 ? of_scan.mu[k / n] / rule.mu[k / n] : 1;
-    });
+    std::vector<std::vector<double>*> all{&g.spectrum, &g.storage, &g.loss, &g.error_estimate};
+    for (Gradients::OfArgument& one : g.arguments) all.push_back(&one.values);
+    for (auto* const of : all)
+      for (std::size_t k = 0, n = of->size() / rule.mu.size(); k < of->size(); ++k)
+        if (rule.mu[k / n] > 0) (*of)[k] *= of_scan.mu[k / n] / rule.mu[k / n];
     take_differences(g, scan_at, of_contacts);
     return g;
   }
