@@ -3,19 +3,16 @@
 #include "rubber/angular_interpolant.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "numerics/arguments.hpp"
+#include "numerics/interpolation.hpp"
 
 namespace asperity {
 
 namespace {
 
 constexpr std::size_t order = AngularPolynomials::order;
-
-/// Frequencies of the same exponent and first six binary digits.
-std::uint64_t bucket(double w) { return std::bit_cast<std::uint64_t>(w) >> 46; }
 
 }  // namespace
 
@@ -48,11 +45,7 @@ AngularTable::AngularTable(std::span<const ModulusPiece> pieces)
     : sums_(pieces),
       lowest_(pieces.front().high),
       highest_(pieces.back().high),
-      made_(std::make_unique<std::atomic<const Parts*>[]>(sums_.edges().size())) {
-  const std::span<const double> edges = sums_.edges();
-  for (std::uint32_t p = 0; p + 1 < edges.size(); ++p) first_.resize(bucket(edges[p + 1]) - bucket(edges[0]) + 1, p);
-  first_.push_back(static_cast<std::uint32_t>(edges.size() - 2));
-}
+      made_(std::make_unique<std::atomic<const Parts*>[]>(sums_.edges().size())) {}
 
 AngularTable::~AngularTable() {
   for (std::size_t p = 0; p < sums_.edges().size(); ++p) delete made_[p].load();
@@ -104,9 +97,7 @@ const AngularTable::Part& AngularTable::next(double at, std::size_t& panel) cons
   if (at >= edges[panel] && at < edges[std::min(panel + near, edges.size() - 1)]) {
     while (at >= edges[panel + 1]) ++panel;
   } else {
-    const std::uint32_t* const first = &first_[bucket(at) - bucket(edges[0])];
-    const auto above = std::upper_bound(edges.begin() + first[0] + 1, edges.begin() + first[1] + 1, at);
-    panel = static_cast<std::size_t>(above - edges.begin()) - 1;
+    panel = interval_of(edges, at);
   }
   const Parts& of = parts(panel);
   std::size_t i = 0;
@@ -115,15 +106,11 @@ const AngularTable::Part& AngularTable::next(double at, std::size_t& panel) cons
 }
 
 AngularIntegrals AngularTable::operator()(double w) const {
-  AngularIntegrals at{};
-  (void)(*this)({&w, 1}, &at.i1, &at.i2, nullptr);
   std::size_t panel = 0;
   const double known = std::clamp(w, lowest_, highest_);
   const Part& part = next(known, panel);
-  const Pair outside = part.outside(part.place(known));
-  at.i1_outside = std::clamp(outside[0], 0.0, at.i1);
-  at.i2_outside = std::clamp(outside[1], 0.0, at.i2);
-  return at;
+  const Pair all = part.all(part.place(known)), outside = part.outside(part.place(known));
+  return {all[0], all[1], std::clamp(outside[0], 0.0, all[0]), std::clamp(outside[1], 0.0, all[1])};
 }
 
 AngularTable::Any AngularTable::operator()(std::span<const double> w, double* i1, double* i2,

@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -65,7 +64,6 @@ class AngularTable {
 
   AngularSums sums_;
   double lowest_, highest_;                            // [rad/s]
-  std::vector<std::uint32_t> first_;                   // panel at the lower end of each bucket of frequencies
   std::unique_ptr<std::atomic<const Parts*>[]> made_;  // of each panel; null before its first use
 };
 
