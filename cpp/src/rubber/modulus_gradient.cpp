@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -26,8 +27,8 @@ using std::numbers::pi;
 namespace {
 
 constexpr double settled = 1e-3;  // of u, below which kernels are their limits, and one row stands for all
-constexpr double a_decade = 5;    // rows of a series
-constexpr double longest = 0.5;   // in ln w, between breaks
+constexpr double a_decade = 5;    // rows of a series, and breaks at least
+constexpr double longest = std::numbers::ln10 / a_decade;
 
 /// Places in s = sqrt(ln(w / low) / ln(high / low)), Chebyshev's points of the first kind.
 Lagrange<6> chebyshev_places() {
@@ -78,7 +79,7 @@ ModulusGradient::ModulusGradient(const Rubber& rubber, double lowest, double hig
 void ModulusGradient::take_steps(const PronySeries& series, double lowest, double highest) {
   const auto row_below = [](double w) { return static_cast<int>(std::floor(a_decade * std::log10(w))); };
   const double slowest = series.relaxation_times().empty() ? 0 : std::ranges::max(series.relaxation_times());
-  constexpr double relaxed = 1e-6;  // w tau, whose square is rounding
+  const double relaxed = std::sqrt(std::numeric_limits<double>::epsilon());  // w tau, whose square is rounding
   const int row = row_below(settled * lowest), begin = slowest > 0 ? std::min(row, row_below(relaxed / slowest)) : row,
             end = row_below(highest) + 1;
   first_row_ = row - begin;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "numerics/adaptive_quadrature.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/gauss_legendre.hpp"
 #include "numerics/interpolation.hpp"
@@ -125,16 +126,12 @@ double plane_height(const SelfAffineSpectrum& s) {
   if (end < s.q1)
     sum += end * end * std::pow(end / q_r, fall(s)) * mean_of_shape(s) *
            exponential_integral(2 + fall(s), std::log(s.q1 / end));
-  constexpr int panels = 8;
-  const LegendreRule& rule = legendre_rule(8);
   const double length = std::log(end / begin);
-  for (int i = 0; i < panels; ++i)
-    for (std::size_t j = 0; j < rule.n; ++j) {
-      const double t = (i + (1 + rule.node[j]) / 2) / panels, sine = std::sin(pi / 2 * t);
-      const double q = begin * std::exp(length * sine * sine);
-      sum += rule.weight[j] / 2 / panels * length * pi / 2 * std::sin(pi * t) * q * q * means(s, q / q_r, 1)[0];
-    }
-  return sum;
+  const auto bend = [&](double t) {  // smooth at both ends
+    const double sine = std::sin(pi / 2 * t), q = begin * std::exp(length * sine * sine);
+    return length * pi / 2 * std::sin(pi * t) * q * q * means(s, q / q_r, 1)[0];
+  };
+  return sum + integrate_smooth(bend, 0, 1).value;
 }
 
 bool is_directional(const Spectrum& spectrum) {
