@@ -78,20 +78,6 @@ class Rings {
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] double dq() const { return 2 * pi / std::max(ly_, lx_); }
 
-  /// Rings that are being summed, and room for half a column, k_y = 0 .. ny / 2.
-  struct Sums {
-    std::vector<Ring> own, mirrored;  // of columns that are their own mirror image, and of the others
-    std::vector<Pair> power;
-    std::vector<double> length;
-    std::vector<int> ring;
-    explicit Sums(const Rings& rings)
-        : own(rings.size()),
-          mirrored(rings.size()),
-          power(rings.squared_radius_.size()),
-          length(power.size()),
-          ring(power.size()) {}
-  };
-
   /// Of each ring and m = 1 to `most`: sums of |h|^2 cos 2 m phi, |h|^2 sin 2 m phi and cos 2 m phi.
   struct Directions {
     double cosine = 0, sine = 0, modes = 0;
@@ -157,35 +143,20 @@ class Rings {
 
   /// Adds the modes of column k_x, all ny of them, k_y and -k_y together: they lie in one ring.
   template <class T>
-  void add_column(std::size_t kx, const std::complex<T>* column, Sums& sums) const {
-    const std::size_t ny = shape_[0], last = ny / 2;
+  void add_column(std::size_t kx, const std::complex<T>* column, std::vector<Ring>& sums) const {
+    const std::size_t ny = shape_[0];
     const double x = radius(kx, side_x_), x2 = x * x;
-    const double* const y2 = squared_radius_.data();
-    double* const length = sums.length.data();
-    int* const ring = sums.ring.data();
-    for (std::size_t ky = 0; ky <= last; ++ky) {
-      length[ky] = std::sqrt(x2 + y2[ky]);
-      ring[ky] = static_cast<int>(length[ky] + 0.5);  // NOLINT(bugprone-incorrect-roundings): it runs on vectors
-    }
-    Pair* const power = sums.power.data();
-    for (std::size_t ky = 1; ky <= last; ++ky) {
-      const double above = norm(column[ky]), below = norm(column[ny - ky]);
-      power[ky] = Pair{above + below, above * above + below * below};
-    }
     // off the axes k_x = 0 and k_x = nx / 2 a mode stands for its mirror image too
-    Ring* const rings = (kx == 0 || 2 * kx == shape_[1] ? sums.own : sums.mirrored).data();
-    for (std::size_t ky = 1; 2 * ky < ny; ++ky) {
-      Ring& sum = rings[ring[ky]];
-      sum.power += power[ky];
-      sum.modes += Pair{length[ky], 1};
+    const double images = kx == 0 || 2 * kx == shape_[1] ? 1 : 2;
+    const Pair of_power{images, images * images};
+    for (std::size_t ky = 0; ky <= ny / 2; ++ky) {
+      const bool single = ky == 0 || 2 * ky == ny;
+      const double length = std::sqrt(x2 + squared_radius_[ky]);
+      const double above = norm(column[ky]), below = single ? 0 : norm(column[ny - ky]);
+      Ring& sum = sums[static_cast<std::size_t>(length + 0.5)];
+      sum.power += of_power * Pair{above + below, above * above + below * below};
+      sum.modes += images * (single ? 0.5 : 1) * Pair{length, 1};
     }
-    const auto single = [&](std::size_t ky) {
-      const double alone = norm(column[ky]);
-      rings[ring[ky]].power += Pair{alone, alone * alone};
-      rings[ring[ky]].modes += 0.5 * Pair{length[ky], 1};
-    };
-    single(0);
-    if (2 * last == ny) single(last);
   }
 
  private:
@@ -213,19 +184,14 @@ struct RingSums {
 };
 RingSums ring_sums(const HeightMap& map, const Rings& rings, const Preparation& prepared, unsigned threads,
                    std::size_t most, const Reliability& reliable) {
-  struct Part {
-    Rings::Sums rings;
-    std::vector<Rings::Directions> directions;
-    Rings::Slopes slopes = {};
-  };
   RingSums total{std::vector<Ring>(rings.size()), std::vector<Rings::Directions>(rings.size() * most)};
-  std::vector<Part> parts(threads, Part{Rings::Sums(rings), total.directions});
+  std::vector<RingSums> parts(threads, total);
   for_each_mode_column(map, prepared, threads, [&](unsigned part, std::size_t kx, const auto* column) {
     rings.add_column(kx, column, parts[part].rings);
     rings.add_slopes(kx, column, reliable.lowest, reliable.highest, parts[part].slopes);
     if (most > 0) rings.add_directions(kx, column, most, parts[part].directions);
   });
-  for (const Part& part : parts) {
+  for (const RingSums& part : parts) {
     total.slopes.add(part.slopes);
     for (std::size_t i = 0; i < part.directions.size(); ++i) {
       total.directions[i].cosine += part.directions[i].cosine;
@@ -233,8 +199,8 @@ RingSums ring_sums(const HeightMap& map, const Rings& rings, const Preparation& 
       total.directions[i].modes += part.directions[i].modes;
     }
     for (std::size_t r = 0; r < rings.size(); ++r) {
-      total.rings[r].power += part.rings.own[r].power + Pair{2, 4} * part.rings.mirrored[r].power;
-      total.rings[r].modes += part.rings.own[r].modes + 2 * part.rings.mirrored[r].modes;
+      total.rings[r].power += part.rings[r].power;
+      total.rings[r].modes += part.rings[r].modes;
     }
   }
   return total;
