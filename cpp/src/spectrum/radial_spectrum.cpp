@@ -59,7 +59,10 @@ struct Ring {
 class Rings {
  public:
   Rings(HeightMap::Shape shape, HeightMap::PixelSize pixel)
-      : shape_(shape), ly_(static_cast<double>(shape[0]) * pixel[0]), lx_(static_cast<double>(shape[1]) * pixel[1]) {
+      : shape_(shape),
+        ly_(static_cast<double>(shape[0]) * pixel[0]),
+        lx_(static_cast<double>(shape[1]) * pixel[1]),
+        coarser_(std::max(pixel[0], pixel[1])) {
     // sides in units of dx, so that the rings do not depend on the unit of length: exact for square pixels
     side_y_ = static_cast<double>(shape[0]) * (pixel[0] / pixel[1]);
     side_x_ = static_cast<double>(shape[1]);
@@ -77,6 +80,10 @@ class Rings {
   }
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] double dq() const { return 2 * pi / std::max(ly_, lx_); }
+  [[nodiscard]] double area_of_mode() const { return 4 * pi * pi / (lx_ * ly_); }  // [1/m^2]
+  [[nodiscard]] Reliability reliable(Window window, const Preparation& prepared) const {
+    return {window, std::min(ly_, lx_), coarser_, prepared.ring_covariances[0]};
+  }
 
   /// Of each ring and m = 1 to `most`: sums of |h|^2 cos 2 m phi, |h|^2 sin 2 m phi and cos 2 m phi.
   struct Directions {
@@ -113,12 +120,16 @@ class Rings {
       xy += other.xy;
       yy += other.yy;
     }
+    static constexpr double enough = 16;  // modes
+    /// Mean squares of the principal slopes, the greater first.
+    [[nodiscard]] std::array<double, 2> principal() const {
+      const double mean = (xx + yy) / 2, split = std::hypot((xx - yy) / 2, xy);
+      return {mean + split, std::fmax(0, mean - split)};
+    }
     /// Of the principal slopes; none where one is 0, or of few modes.
     [[nodiscard]] std::optional<double> ratio() const {
-      constexpr double enough = 16;
-      if (modes < enough) return {};
-      const double mean = (xx + yy) / 2, split = std::hypot((xx - yy) / 2, xy);
-      return mean - split > 1e-12 * mean ? std::optional(std::sqrt((mean + split) / (mean - split))) : std::nullopt;
+      const auto [across, along] = principal();
+      return modes >= enough && along > 1e-12 * across ? std::optional(std::sqrt(across / along)) : std::nullopt;
     }
   };
   /// Of the modes of column k_x from one wavenumber to another [1/m].
@@ -127,15 +138,16 @@ class Rings {
     const std::size_t ny = shape_[0];
     const double x = radius(kx, side_x_), x2 = x * x, low = lowest / dq(), high = highest / dq();
     Slopes of;
-    for (std::size_t ky = 0; 2 * ky < ny; ++ky) {
+    for (std::size_t ky = 0; ky <= ny / 2; ++ky) {
       const double y2 = squared_radius_[ky], q2 = x2 + y2;
-      if (q2 > high * high) break;
-      if (q2 < low * low) continue;
-      const double above = norm(column[ky]), below = ky == 0 ? 0 : norm(column[ny - ky]);
+      if (is_above(q2, high * high)) break;
+      if (is_below(q2, low * low)) continue;
+      const bool single = ky == 0 || 2 * ky == ny;  // of either sign
+      const double above = norm(column[ky]), below = single ? 0 : norm(column[ny - ky]);
       of.xx += (above + below) * x2;
-      of.xy += (above - below) * x * std::sqrt(y2);
+      if (!single) of.xy += (above - below) * x * std::sqrt(y2);
       of.yy += (above + below) * y2;
-      of.modes += ky == 0 ? 1 : 2;
+      of.modes += single ? 1 : 2;
     }
     const double mirrored = kx == 0 || 2 * kx == shape_[1] ? 1 : 2;
     sums.add({mirrored * of.xx, mirrored * of.xy, mirrored * of.yy, of.modes});
@@ -171,7 +183,7 @@ class Rings {
   [[nodiscard]] double radius(std::size_t k, double side) const { return static_cast<double>(k) * longest_ / side; }
 
   HeightMap::Shape shape_;
-  double ly_, lx_, side_y_, side_x_, longest_;
+  double ly_, lx_, coarser_, side_y_, side_x_, longest_;
   std::size_t count_;
   std::vector<double> squared_radius_;  // of k_y = 0 .. ny / 2
 };
@@ -287,9 +299,8 @@ TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::option
   const auto [ny, nx] = map.shape();
   const auto [dy, dx] = map.pixel_size();
   const Rings rings(map.shape(), map.pixel_size());
-  const double shorter = std::min(static_cast<double>(ny) * dy, static_cast<double>(nx) * dx);
   const std::vector<double>& covariances = prepared.ring_covariances;
-  const Reliability reliable(window, shorter, std::max(dy, dx), covariances[0]);
+  const Reliability reliable = rings.reliable(window, prepared);
   const auto [sums, directions, slopes] = ring_sums(map, rings, prepared, threads, most, reliable);
   RingHarmonics harmonics{most, {}, {}, {}};
   std::vector<double> wavenumber, density;
@@ -327,6 +338,33 @@ TabulatedSpectrum ring_spectrum(const HeightMap& map, Window window, std::option
 }
 
 }  // namespace
+
+// <dh/dx_i dh/dx_j> = int q_i q_j C d^2q, whose principal axis of the lesser value is the lay.
+Anisotropy anisotropy(const HeightMap& map, Window window, std::optional<Detrend> detrend, std::optional<double> q_min,
+                      std::optional<double> q_max) {
+  if (q_min) require_positive("q_min", *q_min);
+  if (q_max) require_positive("q_max", *q_max);
+  const Preparation prepared = prepare(map, window, detrend, 1);
+  const Rings rings(map.shape(), map.pixel_size());
+  const Reliability reliable = rings.reliable(window, prepared);
+  const double lowest = q_min.value_or(reliable.lowest), highest = q_max.value_or(reliable.highest);
+  if (!(highest > lowest))
+    throw InvalidInput(argument("surface") + ": has no band between " + show(lowest, 6) +
+                       " 1/m, the longest waves that the window leaves, and " + show(highest, 6) +
+                       ", half of pi / pixel: is too small for its anisotropy; q_min and q_max choose one");
+  Rings::Slopes sums;
+  for_each_mode_column(map, prepared, 1, [&](unsigned, std::size_t kx, const auto* column) {
+    rings.add_slopes(kx, column, lowest, highest, sums);
+  });
+  if (sums.modes < Rings::Slopes::enough)
+    throw InvalidInput(argument("q_min") + ", " + argument("q_max") + ": " + show(sums.modes) +
+                       " modes of the map in [" + show(lowest, 6) + ", " + show(highest, 6) + "] 1/m" + must_be() +
+                       show(Rings::Slopes::enough) + " or more for its anisotropy");
+  const auto [across, along] = sums.principal();
+  const double to_slope = prepared.scale * rings.area_of_mode() * rings.dq() * rings.dq();
+  const double steep = std::atan2(2 * sums.xy, sums.xx - sums.yy) / 2;  // of the greatest slope, in (-pi/2, pi/2]
+  return {std::sqrt(to_slope * across), std::sqrt(to_slope * along), steep > 0 ? steep - pi / 2 : steep + pi / 2};
+}
 
 TabulatedSpectrum directional_spectrum(const HeightMap& map, Window window, std::optional<Detrend> detrend,
                                        unsigned threads) {
