@@ -145,27 +145,26 @@ StrainRatios strain_factors(std::span<const StrainSweep> sweeps, std::optional<d
       if (e > reference) strain.push_back(e);
   sort_apart(strain);
 
-  std::vector<double> storage{1}, loss{1}, storage_error{0}, loss_error{0};
-  double log_f = 0, log_g = 0;
-  for (std::size_t i = 1; i < strain.size(); ++i) {
-    Spread f_step, g_step, f_whole, g_whole;
-    for (const StrainSweep& sweep : sweeps) {
-      if (is_below(sweep.strain().back(), strain[i])) continue;
-      const double at = std::fmin(strain[i], sweep.strain().back());
-      const auto over = [&](const std::vector<double>& modulus, double from) {
-        return log_modulus(sweep, modulus, at) - log_modulus(sweep, modulus, from);
-      };
-      f_step.add(over(sweep.storage_modulus(), strain[i - 1]));
-      g_step.add(over(sweep.loss_modulus(), strain[i - 1]));
-      f_whole.add(over(sweep.storage_modulus(), reference));
-      g_whole.add(over(sweep.loss_modulus(), reference));
+  const auto factors_of = [&](auto modulus_of) {  // and their errors
+    std::pair result{std::vector<double>{1}, std::vector<double>{0}};
+    double log_factor = 0;
+    for (std::size_t i = 1; i < strain.size(); ++i) {
+      Spread step, whole;
+      for (const StrainSweep& sweep : sweeps) {
+        if (is_below(sweep.strain().back(), strain[i])) continue;
+        const std::vector<double>& modulus = (sweep.*modulus_of)();
+        const double here = log_modulus(sweep, modulus, std::fmin(strain[i], sweep.strain().back()));
+        step.add(here - log_modulus(sweep, modulus, strain[i - 1]));
+        whole.add(here - log_modulus(sweep, modulus, reference));
+      }
+      result.first.push_back(std::exp(log_factor += step.mean()));
+      // a sweep that goes on alone is known no better than all of them were
+      result.second.push_back(whole.count > 1 ? whole.deviation() : result.second.back());
     }
-    storage.push_back(std::exp(log_f += f_step.mean()));
-    loss.push_back(std::exp(log_g += g_step.mean()));
-    // a sweep that goes on alone is known no better than all of them were
-    storage_error.push_back(f_whole.count > 1 ? f_whole.deviation() : storage_error.back());
-    loss_error.push_back(g_whole.count > 1 ? g_whole.deviation() : loss_error.back());
-  }
+    return result;
+  };
+  auto [storage, storage_error] = factors_of(&StrainSweep::storage_modulus);
+  auto [loss, loss_error] = factors_of(&StrainSweep::loss_modulus);
 
   std::vector<Diagnostic> notes;
   if (sweeps.size() > 1) {

@@ -41,13 +41,9 @@ struct Plan {
 #include "numerics/vector_units.inc"
 
 /// The plan of `Of` for this machine's vector unit.
-#ifdef __x86_64__
 #define ASPERITY_PLAN(Of, n)                                                                              \
   (vector_unit() == VectorUnit::baseline ? std::shared_ptr<Plan<T>>(std::make_shared<baseline::Of<T>>(n)) \
                                          : std::shared_ptr<Plan<T>>(std::make_shared<avx2::Of<T>>(n)))
-#else
-#define ASPERITY_PLAN(Of, n) std::shared_ptr<Plan<T>>(std::make_shared<baseline::Of<T>>(n))
-#endif
 
 template <class T>
 const Plan<T>& plan_of(const std::shared_ptr<void>& plan) {

@@ -43,11 +43,7 @@ namespace {
 }  // namespace
 
 const Kernels& kernels() {
-#ifdef __x86_64__
   static const Kernels chosen = vector_unit() == VectorUnit::baseline ? baseline::loops() : avx2::loops();
-#else
-  static const Kernels chosen = baseline::loops();
-#endif
   return chosen;
 }
 

@@ -142,11 +142,7 @@ HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail
 
 bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, double* i1, double* i2, double* i1_outside,
                                double* loss, double* square) const {
-#ifdef __x86_64__
   static const auto loop = vector_unit() == VectorUnit::baseline ? baseline::polynomials_at : avx2::polynomials_at;
-#else
-  constexpr auto loop = baseline::polynomials_at;
-#endif
   const std::size_t n = w.size(), columns = in_blocks(2 * (count + 1));
   const double *of[together], *outside[together];
   const Cell* cell[together];

@@ -23,12 +23,8 @@ struct AngularLoops {
 #include "numerics/vector_units.inc"
 
 const AngularLoops& loops() {
-#ifdef __x86_64__
   static const AngularLoops chosen =
       vector_unit() == VectorUnit::baseline ? baseline::angular_loops() : avx2::angular_loops();
-#else
-  static const AngularLoops chosen = baseline::angular_loops();
-#endif
   return chosen;
 }
 

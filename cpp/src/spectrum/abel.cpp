@@ -168,10 +168,7 @@ std::vector<double> autocorrelation(const Spectrum& spectrum, std::span<const do
                              " 1/m makes more than 10^6 oscillations, of which the sum is below rounding");
         next = std::min(next, s.b);
         const auto rate = [&](double k) { return k * s.density(k) * ::j0(k * r); };
-        Integral piece = integrate_smooth(rate, q, next);
-        if (piece.error > rtol * at_zero / static_cast<double>(pieces.size()))
-          piece = integrate(rate, q, next, rtol, rtol * at_zero / static_cast<double>(pieces.size()));
-        sum += piece.value;
+        sum += integrate(rate, q, next, rtol, rtol * at_zero / static_cast<double>(pieces.size())).value;
         q = next;
       }
     }
