@@ -20,6 +20,12 @@ Friction friction_before_heating(const Spectrum& spectrum, const Rubber& rubber,
                                  std::span<const double> temperature, bool contributions, unsigned threads,
                                  bool heated);
 
+/// Adds a note where more than a part of the hysteresis comes from frequencies that were not measured, and before all
+/// others where most of it does.
+void note_extrapolated_modulus(Friction& friction);
+/// Adds a note, before all others, where mu is above what rubber reaches, with the part that makes it.
+void note_large_friction(Friction& friction);
+
 /// Adds the parts of mu_H, `whole`, to the decades of point i, from those of panels with their ends [1/m].
 void add_decades(Contributions& c, std::size_t i, double velocity, double whole, std::span<const PanelSum> shares);
 

@@ -13,7 +13,6 @@
 #include "asperity/watch.hpp"
 #include "contact/conditions.hpp"
 #include "friction/before_heating.hpp"
-#include "friction/friction_notes.hpp"
 #include "friction/scan_friction.hpp"
 #include "heat/flash_map.hpp"
 #include "heat/flash_solver.hpp"

@@ -20,7 +20,6 @@
 #include "contact/theory/partial_contact_rule.hpp"
 #include "contact/validity.hpp"
 #include "friction/before_heating.hpp"
-#include "friction/friction_notes.hpp"
 #include "friction/scan_friction.hpp"
 #include "numerics/arguments.hpp"
 #include "numerics/parallel_for.hpp"

@@ -1,12 +1,11 @@
 // Notes on friction as it is returned: on the share of the hysteresis that comes from frequencies outside of the
 // measured ones, which heat moves, and on friction that no rubber has on a rough surface.
-#include "friction/friction_notes.hpp"
-
 #include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "friction/before_heating.hpp"
 #include "numerics/arguments.hpp"
 
 namespace asperity {

@@ -176,36 +176,32 @@ bool PronySeries::angular_integrals(std::span<const double> w, std::span<double>
                                     std::span<double> square) const {
   const std::size_t count = harmonics_in(w, loss, square);
   if (count == 0) return angular_integrals(w, i1, i2, i1_outside);
+  require_room(w, i1, i2);
+  for (const double one : w) {
+    require_not_negative("angular_frequency", one);
+    check_fitted(one);
+  }
   const double fastest = longest_ > 0 ? largest_x / longest_ : std::numeric_limits<double>::max();
   const PronyTerms terms{moduli_.data(), weights_.data(), times_.data(), moduli_.size(), equilibrium_};
-  const std::size_t n = w.size(), whole = n - n % lanes;
-  std::vector<double> first, second;
-  double at[lanes], of_i1[lanes], of_i2[lanes];
-  const auto take_lanes = [&](std::size_t i) {
-    for (auto* const row : {&first, &second}) row->resize(count * lanes);
+  const std::size_t n = w.size(), whole = std::ranges::max(w) < fastest ? n - n % lanes : 0;
+  kernels().prony_harmonics(terms, w.data(), whole, n, count, i1.data(), i2.data(), loss.data(), square.data());
+  std::vector<double> rows(whole < n ? 2 * count * lanes : 0);
+  for (std::size_t i = whole; i < n; i += lanes) {  // a rest, and frequencies whose squares overflow
+    double at[lanes], of_i1[lanes], of_i2[lanes];
     for (std::size_t k = 0; k < lanes; ++k) at[k] = std::fmin(w[std::min(i + k, n - 1)], fastest);
-    kernels().prony_harmonics(terms, at, lanes, lanes, count, of_i1, of_i2, first.data(), second.data());
-    for (std::size_t j = 0; j < count; ++j)
-      for (std::size_t k = 0; k < std::min(lanes, n - i); ++k) {
-        loss[j * n + i + k] = first[j * lanes + k];
-        square[j * n + i + k] = second[j * lanes + k];
+    kernels().prony_harmonics(terms, at, lanes, lanes, count, of_i1, of_i2, rows.data(), rows.data() + count * lanes);
+    for (std::size_t k = 0; k < std::min(lanes, n - i); ++k) {
+      const AngularIntegrals here =
+          w[i + k] > fastest ? angular_integrals(w[i + k]) : AngularIntegrals{of_i1[k], of_i2[k]};
+      i1[i + k] = here.i1;
+      i2[i + k] = here.i2;
+      for (std::size_t j = 0; j < count; ++j) {
+        loss[j * n + i + k] = rows[j * lanes + k];
+        square[j * n + i + k] = rows[(count + j) * lanes + k];
       }
-  };
-  if (std::ranges::max(w) < fastest) {
-    require_room(w, i1, i2);
-    for (const double one : w) {
-      require_not_negative("angular_frequency", one);
-      check_fitted(one);
     }
-    kernels().prony_harmonics(terms, w.data(), whole, n, count, i1.data(), i2.data(), loss.data(), square.data());
-    if (whole < n) take_lanes(whole);
-    std::copy_n(of_i1, n - whole, i1.data() + whole);
-    std::copy_n(of_i2, n - whole, i2.data() + whole);
-    return outside(w, i1, i2, i1_outside);
   }
-  const bool any_outside = angular_integrals(w, i1, i2, i1_outside);
-  for (std::size_t i = 0; i < n; i += lanes) take_lanes(i);
-  return any_outside;
+  return outside(w, i1, i2, i1_outside);
 }
 
 PronySeries PronySeries::shifted(double a_T) const {
