@@ -67,7 +67,7 @@ struct Measurement {
         own(master_spline(likelihood, 0)) {}
 
   MasterSpline spline(const std::vector<double>& log10_a_T) {
-    likelihood.data(log10_a_T, factor, nullptr);
+    likelihood.data(log10_a_T, factor);
     return master_spline(likelihood, 0);
   }
 

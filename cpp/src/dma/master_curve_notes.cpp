@@ -165,7 +165,7 @@ void note_vertical_shift(const std::vector<Isotherm>& isotherms, const Shifted& 
   for (std::size_t i = 1; i < isotherms.size(); ++i)
     if (!meet(isotherms[i - 1], isotherms[i], b_T[i - 1], b_T[i])) return;
   const SweepPoints points = gather(isotherms, b_T);
-  const Shifted ratio = joint_shifts(points, fixed, first);
+  const Shifted ratio = joint_shifts(points, fixed, &first);
   const double here = Steffen(points.temperature, first.log10_a_T)(reference);
   const double there = Steffen(points.temperature, ratio.log10_a_T)(reference);
   double worst = 0;

@@ -85,7 +85,7 @@ std::array<double, moduli> fit_factors(ShiftLikelihood& likelihood, std::span<co
     const auto cost = [&](double log_factor) { return likelihood.alone(modulus, shift, log_factor); };
     factor[modulus] = least_of(cost, -8, 8, 8, 0.01);
   }
-  likelihood.data(shift, factor, nullptr);
+  likelihood.data(shift, factor);
   return factor;
 }
 

@@ -33,11 +33,11 @@ Eigen::MatrixXd hessian(ShiftLikelihood& likelihood, const ShiftFit& fit) {
 double reach_of(ShiftLikelihood& likelihood, const ShiftFit& fit, const std::vector<double>& shift, std::size_t step,
                 double way, double from, double limit) {
   const std::array<double, moduli> factor = ShiftLikelihood::log_factors(fit.unknowns);
-  const double here = likelihood.misfit(shift, factor);
+  const double here = likelihood.data(shift, factor, nullptr, true);
   std::vector<double> moved = shift;
   const auto rise = [&](double distance) {
     for (std::size_t k = step + 1; k < shift.size(); ++k) moved[k] = shift[k] + way * distance;
-    return fit.weight * (likelihood.misfit(moved, factor) - here);
+    return fit.weight * (likelihood.data(moved, factor, nullptr, true) - here);
   };
   double inside = 0, risen = 0, outside = std::min(from, limit);
   for (;;) {

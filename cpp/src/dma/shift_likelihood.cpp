@@ -97,23 +97,16 @@ double ShiftLikelihood::alone(std::size_t modulus, std::span<const double> shift
 }
 
 double ShiftLikelihood::data(std::span<const double> shift, const std::array<double, moduli>& log_factor,
-                             Eigen::VectorXd* gradient) {
+                             Eigen::VectorXd* gradient, bool misfit_alone) {
   place(shift);
   if (gradient) gradient->setZero(static_cast<Eigen::Index>(shift.size() + moduli));
   double sum = 0;
   for (std::size_t modulus = 0; modulus < moduli; ++modulus) {
     if (!used_[modulus]) continue;
-    sum += fit(modulus, log_factor[modulus]) + spline_[modulus].log_determinant() / 2;
+    sum += fit(modulus, log_factor[modulus]);
+    if (!misfit_alone) sum += spline_[modulus].log_determinant() / 2;
     if (gradient) add_gradient(modulus, *gradient);
   }
-  return sum;
-}
-
-double ShiftLikelihood::misfit(std::span<const double> shift, const std::array<double, moduli>& log_factor) {
-  place(shift);
-  double sum = 0;
-  for (std::size_t modulus = 0; modulus < moduli; ++modulus)
-    if (used_[modulus]) sum += fit(modulus, log_factor[modulus]);
   return sum;
 }
 

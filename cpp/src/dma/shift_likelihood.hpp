@@ -25,7 +25,6 @@ struct SplineBasis {
   std::vector<std::array<double, 4>> gram;   // (j, j - k) of B^T B
 
   void place(std::span<const double> x);
-  [[nodiscard]] double upper() const { return lower + spacing * static_cast<double>(coefficients - 3); }
   /// The third differences of the coefficients, and where each of them lies: in the middle of its interval.
   [[nodiscard]] std::size_t differences() const { return coefficients - 3; }
   [[nodiscard]] double middle(std::size_t difference) const {
@@ -149,12 +148,12 @@ class ShiftLikelihood {
   /// the prior, and its gradient.
   double operator()(const Eigen::VectorXd& unknowns, Eigen::VectorXd& gradient);
 
-  /// The data alone at given shifts [decades] and factors. Gradient: in the shifts, then in the factors.
-  double data(std::span<const double> shift, const std::array<double, moduli>& log_factor, Eigen::VectorXd* gradient);
+  /// The data alone at given shifts [decades] and factors, or of them the sum over the moduli of (N - 3) / 2 ln RSS.
+  /// Gradient: in the shifts, then in the factors.
+  double data(std::span<const double> shift, const std::array<double, moduli>& log_factor,
+              Eigen::VectorXd* gradient = nullptr, bool misfit_alone = false);
   /// The same of one modulus.
   double alone(std::size_t modulus, std::span<const double> shift, double log_factor);
-  /// The sum over the moduli of (N - 3) / 2 ln RSS.
-  double misfit(std::span<const double> shift, const std::array<double, moduli>& log_factor);
 
   /// Shifts of the unknowns, the first isotherm at 0, and back.
   [[nodiscard]] std::vector<double> shifts(const Eigen::VectorXd& unknowns) const;
@@ -163,7 +162,6 @@ class ShiftLikelihood {
   // Of the last evaluation.
   [[nodiscard]] const SplineBasis& basis() const { return basis_; }
   [[nodiscard]] PenalizedSpline& spline(std::size_t modulus) { return spline_[modulus]; }
-  [[nodiscard]] double variance(std::size_t modulus) const { return variance_[modulus]; }  // of the noise
   [[nodiscard]] std::array<double, 2> ends() const;  // lowest and highest log10 w, shifted
   [[nodiscard]] const SweepPoints& points() const { return points_; }
   [[nodiscard]] const std::array<bool, moduli>& used() const { return used_; }

@@ -130,24 +130,19 @@ ShiftFit fit_shifts(ShiftLikelihood& likelihood, const Smoothness& smoothness) {
   return share < 1 ? descend(likelihood, smoothness, fit.unknowns, share, std::span(noise_floors).last(1)) : fit;
 }
 
-Shifted joint_shifts(const SweepPoints& points, std::size_t fixed) {
+Shifted joint_shifts(const SweepPoints& points, std::size_t fixed, const Shifted* first) {
   const Smoothness smoothness = local_smoothness(points);
   ShiftLikelihood likelihood(points, smoothness);
-  const ShiftFit fit = fit_shifts(likelihood, smoothness);
+  const ShiftFit fit =
+      first ? fit_shifts(likelihood, smoothness, first->unknowns, first->weight) : fit_shifts(likelihood, smoothness);
   const std::vector<double> shift = likelihood.shifts(fit.unknowns);
-  MasterSpline spline = master_spline(likelihood, points.isotherms() - 1);
-  spline.move(-shift[fixed]);
-  std::vector<bool> tied = neighbours_tied(points, smoothness, shift);
-  Eigen::MatrixXd covariance = shift_covariance(likelihood, fit, tied, fixed);
-  return {std::move(spline), about(shift, fixed), std::move(covariance), fit.unknowns, fit.weight, std::move(tied)};
-}
-
-Shifted joint_shifts(const SweepPoints& points, std::size_t fixed, const Shifted& first) {
-  const Smoothness smoothness = local_smoothness(points);
-  ShiftLikelihood likelihood(points, smoothness);
-  const ShiftFit fit = fit_shifts(likelihood, smoothness, first.unknowns, first.weight);
-  MasterSpline spline = master_spline(likelihood, points.isotherms() - 1);
-  return {std::move(spline), about(likelihood.shifts(fit.unknowns), fixed), {}, fit.unknowns, fit.weight, {}};
+  Shifted result{
+      master_spline(likelihood, points.isotherms() - 1), about(shift, fixed), {}, fit.unknowns, fit.weight, {}};
+  result.spline.move(-shift[fixed]);
+  if (first) return result;
+  result.tied = neighbours_tied(points, smoothness, shift);
+  result.covariance = shift_covariance(likelihood, fit, result.tied, fixed);
+  return result;
 }
 
 Disagreement moduli_apart(const SweepPoints& points, std::size_t fixed, const Shifted& both, double least) {

@@ -79,9 +79,8 @@ struct Shifted {
   double weight;
   std::vector<bool> tied;  // of neighbours
 };
-Shifted joint_shifts(const SweepPoints& points, std::size_t fixed);
-/// The same with other vertical shifts, from what the first ones gave; no covariance.
-Shifted joint_shifts(const SweepPoints& points, std::size_t fixed, const Shifted& first);
+/// With other vertical shifts from what the `first` ones gave, and then without covariance.
+Shifted joint_shifts(const SweepPoints& points, std::size_t fixed, const Shifted* first = nullptr);
 
 /// log10 a_T about `fixed` by E' alone and by E'' alone, and how far apart they are in standard deviations of that: 0
 /// where none is farther than `least` [decades].
