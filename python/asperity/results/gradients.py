@@ -31,8 +31,8 @@ class Gradients(Table):
         Density over ln q of d mu / d ln C. For the hysteresis alone its integral is
         (mu - d mu / d ln pressure) / 2.
     angular_frequency : ndarray, shape (m,)
-        Rows of the modulus, reduced: omega a_T [rad/s]; those of a master curve, or five a decade.
-        The lowest has all below it, too.
+        Rows of the modulus, reduced: omega a_T [rad/s]; those of a master curve, or fifths of
+        decades. The lowest has all below it, too.
     storage, loss : ndarray, shape mu.shape + (m,)
         Densities over ln omega of d mu / d ln E' and d mu / d ln E''. For the hysteresis alone the
         integral of both is -d mu / d ln pressure.
