@@ -78,7 +78,7 @@ class ModulusGradient {
   std::vector<double> nodes_, breaks_;
   std::vector<Stretch> stretches_;
   std::size_t first_ = 0, last_ = 0;                // at which integrals are asked for
-  std::ptrdiff_t first_row_ = 0;                    // of a series: what lies below is told with it
+  std::ptrdiff_t first_row_ = 0;                    // of a series, which takes up what lies below
   Eigen::Index harmonics_;                          // I1 and I2 among them
   Eigen::MatrixXd i2_storage_, i2_loss_, i1_loss_;  // of one place, a column a harmonic
 };
