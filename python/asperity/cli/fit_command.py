@@ -13,7 +13,7 @@ from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Argument, Note, must_be, refusal
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite, write_outputs
-from asperity.cli.options import typed_options
+from asperity.cli.options import exclusive, goes_with, typed_options
 from asperity.cli.streams import print_stderr
 from asperity.io import plausible
 from asperity.io.fields import in_keys, nearest, rename_in_errors
@@ -99,16 +99,11 @@ _HELD = {
 
 def fit(args: Namespace) -> None:
     """Fit the adhesion, or the numbers that are named; or hold the scene against the points."""
-    if args.free and args.compare:
-        raise InvalidInput(Argument("--compare"), ": is without --free")
+    exclusive(args, "hold free compare")
     if args.free or args.compare:
-        if args.hold:
-            raise InvalidInput(Argument("--hold"), ": is for the fit of the adhesion alone")
         fit_of_scene(args)
         return
-    for option in ("prior", "scatter"):
-        if getattr(args, option) is not None:
-            raise InvalidInput(Argument(f"--{option}"), ": goes with --free or --compare")
+    goes_with(args, "prior scatter", "free compare")
     _fit_adhesion(args)
 
 
@@ -211,4 +206,4 @@ def _table(
         named = partial(in_keys, names={"outliers": "outlier_rows"})
         new = [note.said(named) for note in said if note not in known]
         notes += [note.within("without the correction: ") for note in new] if suffix else new
-    return Table("fit", [inputs], notes, {name: list(column) for name, column in columns.items()})
+    return Table("fit", [inputs], notes, columns)

@@ -16,8 +16,8 @@ import numpy as np
 from asperity._core import InvalidInput
 from asperity.app.serve import serve
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import Argument
 from asperity.base.table import to_install
+from asperity.cli.options import goes_with
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.demo import FILES, input_files
 from asperity.draw.figure import check_plot
@@ -75,10 +75,15 @@ def friction(args: Namespace) -> None:
     write_outputs(args, table, lambda path: plot_friction.friction_figure(scenes, curves, path))
 
 
+def shows_bars() -> bool:
+    """Whether there is a terminal for bars, and tqdm to draw them."""
+    on_terminal = sys.stderr is not None and sys.stderr.isatty()
+    return on_terminal and importlib.util.find_spec("tqdm") is not None
+
+
 def progress(title: str) -> Progress:
     """A bar on a terminal, after two seconds of work, where tqdm is installed."""
-    on_terminal = sys.stderr is not None and sys.stderr.isatty()
-    if not on_terminal or importlib.util.find_spec("tqdm") is None:
+    if not shows_bars():
         return nullcontext
     bar: Callable[..., Any] = importlib.import_module("tqdm").tqdm
     shown = "{l_bar}{bar}| {elapsed}<{remaining}{postfix}"
@@ -100,24 +105,30 @@ def area(args: Namespace) -> None:
     values = scene.contact_area(wavenumber, progress(f"{scene.path}"))
     grid = np.meshgrid(scene.pressure, scene.velocity, wavenumber, indexing="ij")
     names = ("pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area")
-    columns = {n: v.ravel().tolist() for n, v in zip(names, (*grid, values), strict=True)}
+    columns = {n: v.ravel() for n, v in zip(names, (*grid, values), strict=True)}
     table = Table(
         "area", [{**scene_inputs(scene), "points": args.points}], scene.contact_notes(), columns
     )
     write_outputs(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
 
 
-def check_outputs(args: Namespace) -> list[Path]:
-    """Files to be written, refused before any work where they cannot be."""
+def check_outputs(args: Namespace, **others: str | None) -> list[Path]:
+    """Files to be written, of --output, --plot and other options: refused before any work where
+    they cannot be, or where two are one."""
+    goes_with(args, "style", "plot")
     if args.plot is not None:
         check_plot(FilePath(args.plot))
-    elif args.style is not None:
-        raise InvalidInput(Argument("--style"), ": goes with --plot")
-    outputs: list[Path] = [FilePath(name) for name in (args.output, args.plot) if name is not None]
-    for path in outputs:
-        check_output(path)
-    if len({os.path.realpath(path) for path in outputs}) < len(outputs):
-        raise InvalidInput(f"{outputs[0]}: --output and --plot must be two files")
+    flags: dict[str, str] = {}  # by the files that they lead to
+    outputs: list[Path] = []
+    for flag, name in {"output": args.output, "plot": args.plot, **others}.items():
+        if name is None:
+            continue
+        outputs.append(FilePath(name))
+        check_output(outputs[-1])
+        first = flags.setdefault(os.path.realpath(name), flag)
+        if first != flag:
+            both = f"--{first} and --{flag.replace('_', '-')}"
+            raise InvalidInput(f"{both} must be different files", where=outputs[-1])
     return outputs
 
 

@@ -8,9 +8,11 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any, NoReturn, TypeVar
 
-from asperity._core import __version__
+from asperity._core import InvalidInput, __version__
 from asperity.base.arguments import brief
+from asperity.base.diagnostics import Argument, must_be
 from asperity.cli.streams import print_stderr, print_stdout, printable
+from asperity.draw.style import STYLES
 from asperity.io.fields import MOST_POINTS
 from asperity.io.typed import Typed, TypedWhole
 
@@ -18,7 +20,8 @@ Value = TypeVar("Value")
 
 
 class Parser(argparse.ArgumentParser):
-    """A parser that knows which stream is the result's and which may fail."""
+    """A parser that knows which stream is the result's and which may fail, and the options that
+    verbs share."""
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {printable(message)} (see {self.prog} --help)\n")
@@ -29,6 +32,48 @@ class Parser(argparse.ArgumentParser):
 
     def print_help(self, file: object = None) -> None:
         print_stdout(self.format_help())
+
+    def option(self, name: str, text: str, kind: Any = None, **how: Any) -> None:
+        """Add an option: "--name VALUE", what the help says, and the choices of a value or what
+        reads one. With none of these it is a switch. The help tells a default that it lacks."""
+        flag, _, value = name.partition(" ")
+        if value:
+            how["metavar"] = value
+        if kind is not None:
+            how["choices" if isinstance(kind, tuple) else "type"] = kind
+        if how.get("default") and "default" not in text:
+            text += " (default: %(default)s)"
+        self.add_argument(flag, help=text, **(how or {"action": "store_true"}))
+
+    def style(self) -> None:
+        text = "of pictures: print (default), single for one of two columns, dark for screens"
+        self.option("--style", text, STYLES)
+
+    def pictures(self) -> None:
+        self.option("--plot PICTURE", "draw it, .png, .svg or .pdf")
+        self.style()
+
+    def notes(self) -> None:
+        text = "on the terminal: the gravest, alike ones joined (default), or all of them"
+        self.option("--notes", text, ("few", "all"), default="few")
+
+    def outputs(self) -> None:
+        self.option("--output FILE", "where to write (default: the terminal)")
+        self.pictures()
+        self.notes()
+        self.option("--json", "write JSON instead of CSV")
+
+    def directory(self, default: str) -> None:
+        self.option("--output DIR", "directory", default=default)
+        self.option("--force", "replace the files of an earlier run there")
+        self.style()
+
+    def scan(self, channel: int | None = None, detrend: str | None = None) -> None:
+        self.option("--pixel-size DY,DX", "[m], where the file states none", pixel_size)
+        self.option("--unit UNIT", "of the heights (m, mm, um, nm, pm), where the file states none")
+        self.option("--channel", "of a file with several maps (default: 0)", whole, default=channel)
+        text = "what is taken off the heights first (default: plane)"
+        self.option("--detrend", text, ("plane", "quadratic", "offset", "none"), default=detrend)
 
 
 class Version(argparse.Action):
@@ -160,12 +205,23 @@ def flags(*arguments: str) -> dict[str, str]:
     return {name: f"--{name.replace('_', '-')}" for name in arguments}
 
 
-def option(to: argparse.ArgumentParser, name: str, text: str, read: Any = None, **how: Any) -> None:
-    """Add an option to a verb: "--name VALUE", what the help says, and what reads a value. Without
-    a word for the value, and with nothing that says of which kind it is, it is a switch."""
-    flag, _, value = name.partition(" ")
-    if value:
-        how["metavar"] = value
-    if read is not None:
-        how["type"] = read
-    to.add_argument(flag, help=text, **(how or {"action": "store_true"}))
+def given(args: argparse.Namespace, options: str) -> list[str]:
+    """Those of some options that are given, as they are typed."""
+    values = typed_options(args)
+    flags = [f"--{name}" for name in options.split()]
+    return [flag for flag in flags if values[flag] not in (None, {}) and values[flag] is not False]
+
+
+def goes_with(args: argparse.Namespace, options: str, others: str) -> None:
+    """Refuse each of some options where none of the others, with which they go, is given."""
+    found = given(args, options)
+    if found and not given(args, others):
+        beside = " and ".join(f"--{name}" for name in others.split())
+        raise InvalidInput(Argument(found[0]), f": goes with {beside}")
+
+
+def exclusive(args: argparse.Namespace, options: str) -> None:
+    """Refuse two or more of some options."""
+    found = given(args, options)
+    if len(found) > 1:
+        raise must_be("", "one of them", ", ".join(found))

@@ -1,10 +1,6 @@
 """The verb `rubber`: DMA sweeps to a master curve, shift factors and a Prony series."""
 
-import argparse
-import os
 from argparse import Namespace
-from collections.abc import Callable
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +11,11 @@ from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Note, fatal_first, refusal
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
-from asperity.cli.options import flags, number, numbers, option, pairs, typed_options
+from asperity.cli.options import flags, typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
-from asperity.io.files import check_output, write_files
+from asperity.io.files import write_files
 from asperity.io.prony_input import prony_input
 from asperity.io.read_dma import read_isotherms
 from asperity.io.read_shift_factors import read_shift_factors
@@ -41,7 +37,11 @@ def rubber(args: Namespace) -> None:
     """Master curve of the isotherms in files; its table can be a scene's master_curve."""
     files = [FilePath(name) for name in args.file]
     shift_file = [] if args.shift is None else [FilePath(args.shift)]
-    refuse_overwrite([*check_outputs(args), *_tables_wanted(args)], [*files, *shift_file])
+    wanted = {name: getattr(args, name) for name in ("write_shift", "write_prony")}
+    if args.write_prony is not None and FilePath(args.write_prony).suffix not in _PRONY:
+        allowed = "a name in .csv, .inp (Abaqus) or .mac (Ansys)"
+        raise refusal("--write-prony", args.write_prony, allowed)
+    refuse_overwrite(check_outputs(args, **wanted), [*files, *shift_file])
     with plausible.collected(typed_options(args)) as unusual, rename_in_errors(None, _FLAGS):
         if args.reference_temperature is not None:
             flag, temperature = "--reference-temperature", args.reference_temperature
@@ -75,16 +75,23 @@ def rubber(args: Namespace) -> None:
         }
     curve = build.master_curve
     columns = {
-        "angular_frequency_rad_s": curve.angular_frequency.tolist(),
-        "storage_modulus_pa": curve.storage_modulus.tolist(),
-        "loss_modulus_pa": curve.loss_modulus.tolist(),
+        "angular_frequency_rad_s": curve.angular_frequency,
+        "storage_modulus_pa": curve.storage_modulus,
+        "loss_modulus_pa": curve.loss_modulus,
     }
     celsius = (args.units or {}).get("temperature") == "C"
     notes = [note.said(all_in_celsius) for note in notes] if celsius else notes
     inputs |= noted(notes)  # for a scene that reads the curve
     table = Table("rubber", [inputs], notes, columns)
-
-    write_files({path: make(build, prony) for path, make in _tables_wanted(args).items()})
+    beside: dict[Path, str] = {}
+    if args.write_shift is not None:
+        of_build = {"reference_temperature_k": build.reference_temperature}
+        its_table = Table("rubber", [of_build], build.notes, _isotherms(build))
+        beside[FilePath(args.write_shift)] = its_table.csv()
+    if args.write_prony is not None:
+        path = FilePath(args.write_prony)
+        beside[path] = _prony_text(args, path, build, prony)
+    write_files({path: text.encode() for path, text in beside.items()})
 
     def draw(path: Path) -> bytes:
         return plot_rubber.rubber_figure(isotherms, build, wlf, prony, path, celsius=celsius)
@@ -92,49 +99,20 @@ def rubber(args: Namespace) -> None:
     write_outputs(args, table, draw, facts)
 
 
-def _tables_wanted(args: Namespace) -> dict[Path, Callable[..., bytes]]:
-    """The files that shift factors and Prony terms go into, and what makes them."""
-    wanted: dict[Path, Callable[..., bytes]] = {}
-    if args.write_shift is not None:
-        wanted[FilePath(args.write_shift)] = _shift_table
-    if args.write_prony is not None:
-        path: Path = FilePath(args.write_prony)
-        if path.suffix not in _PRONY:
-            allowed = "a name in .csv, .inp (Abaqus) or .mac (Ansys)"
-            raise refusal("--write-prony", str(path), allowed)
-        wanted[path] = partial(_prony_table, args, path)
-    others = [FilePath(name) for name in (args.output, args.plot) if name is not None]
-    for path in wanted:
-        check_output(path)
-    if len({os.path.realpath(path) for path in (*wanted, *others)}) < len(others) + sum(
-        one is not None for one in (args.write_shift, args.write_prony)
-    ):
-        raise InvalidInput("every output must be a file of its own", where=next(iter(wanted)))
-    return wanted
-
-
-def _shift_table(build: MasterCurveBuild, prony: PronyFit | None) -> bytes:
-    facts = {"reference_temperature_k": build.reference_temperature}
-    return Table("rubber", [facts], build.notes, _isotherms(build)).csv().encode()
-
-
-def _prony_table(
+def _prony_text(
     args: Namespace, path: Path, build: MasterCurveBuild, prony: PronyFit | None
-) -> bytes:
+) -> str:
     if prony is None:
         raise InvalidInput("there is no Prony fit to write; --output tells why", where=path)
     if program := _PRONY[path.suffix]:
         with rename_in_errors(path, _FLAGS):
-            return f"{prony_input(prony, program, poisson_ratio=args.poisson_ratio)}\n".encode()
+            return f"{prony_input(prony, program, poisson_ratio=args.poisson_ratio)}\n"
     facts = {
         "reference_temperature_k": build.reference_temperature,
         "equilibrium_modulus_pa": prony.equilibrium_modulus,
     }
-    columns = {
-        "relaxation_time_s": prony.relaxation_times.tolist(),
-        "modulus_pa": prony.moduli.tolist(),
-    }
-    return Table("rubber", [facts], prony.notes, columns).csv().encode()
+    columns = {"relaxation_time_s": prony.relaxation_times, "modulus_pa": prony.moduli}
+    return Table("rubber", [facts], prony.notes, columns).csv()
 
 
 def _fits(build: MasterCurveBuild) -> tuple[WlfFit | None, PronyFit | None, list[Note]]:
@@ -202,55 +180,3 @@ def _isotherms(build: MasterCurveBuild) -> dict[str, list[float]]:
         "standard_deviation": build.standard_deviation.tolist(),
         "b_t": build.b_T.tolist(),
     }
-
-
-def add_rubber(verb: Callable[..., argparse.ArgumentParser]) -> argparse.ArgumentParser:
-    """Add the verb and its options, but for those that verbs share."""
-    added = verb(
-        "rubber",
-        rubber,
-        "master curve, shift factors and Prony series of DMA isotherms",
-        "dma.csv --columns frequency=f,temperature=T,storage=G1,loss=G2 "
-        "--units frequency=Hz,temperature=C,modulus=MPa --modulus G --plot rubber.png",
-    )
-    added.add_argument("file", metavar="FILE", nargs="+")
-    option(
-        added,
-        "--columns NAME=COLUMN,...",
-        "names in the files of frequency, temperature, storage, loss",
-        pairs,
-        required=True,
-    )
-    option(
-        added,
-        "--units NAME=UNIT,...",
-        "frequency=Hz or rad/s, temperature=K or C, modulus=Pa, kPa, MPa or GPa",
-        pairs,
-        required=True,
-    )
-    option(added, "--modulus", "Young's or shear moduli", choices=("E", "G"), required=True)
-    option(
-        added,
-        "--poisson-ratio NU",
-        "for E = 2 (1 + nu) G (default: %(default)s)",
-        number,
-        default=0.5,
-    )
-    option(
-        added,
-        "--temperatures T,T,...",
-        "one for each file, where the files have no column of them",
-        numbers,
-    )
-    option(added, "--reference-temperature T", "[K] (default: that of the middle isotherm)", number)
-    option(added, "--vertical-shift", "divide moduli by b_T (default: none)", choices=("T/T_ref",))
-    option(
-        added,
-        "--shift FILE",
-        "take a_T from a table (temperature_k,log10_a_t or T,log_aT) or a file of this verb",
-    )
-    option(added, "--write-shift FILE", "write the shift factors, a row an isotherm (.csv)")
-    option(
-        added, "--write-prony FILE", "write the Prony terms: .csv, .inp for Abaqus, .mac for Ansys"
-    )
-    return added

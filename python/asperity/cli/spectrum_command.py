@@ -8,13 +8,15 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import MUST_BE, Argument, Note, valued
 from asperity.base.iso_25178 import height_parameters
 from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
-from asperity.cli.options import flags, typed_options
+from asperity.cli.options import flags, goes_with, typed_options
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.open_map import open_map
@@ -149,9 +151,7 @@ def _serves(measured: TabulatedSpectrum, band: Sequence[float] | None, floor: fl
 
 
 def _in_memory(path: Path, args: Namespace) -> Measured:
-    for flag in ("overlap", "threads"):
-        if getattr(args, flag) is not None:
-            raise InvalidInput(Argument(f"--{flag}"), f" {getattr(args, flag)}: goes with --tiles")
+    goes_with(args, "overlap threads", "tiles")
     if path.is_dir():
         raise InvalidInput("is a folder; a Zarr array is read with --tiles 4096", where=path)
     with rename_in_errors(None, {**_FLAGS, "max_fraction": "--max-dropouts"}):
@@ -209,16 +209,16 @@ def _by_tiles(path: Path, args: Namespace) -> Measured:
     return Measured(measured, statistics, facts, lay, notes, raw, flat)
 
 
-def _rows(measured: TabulatedSpectrum) -> dict[str, list[Any]]:
-    columns: dict[str, list[Any]] = {
-        "wavenumber_per_m": measured.wavenumber.tolist(),
-        "density_m4": measured.density.tolist(),
+def _rows(measured: TabulatedSpectrum) -> dict[str, Any]:
+    columns: dict[str, Any] = {
+        "wavenumber_per_m": measured.wavenumber,
+        "density_m4": measured.density,
     }
     if measured.count is not None and measured.standard_error is not None:
-        columns["standard_error_m4"] = measured.standard_error.tolist()
-        columns["count"] = [round(modes) for modes in measured.count.tolist()]
+        columns["standard_error_m4"] = measured.standard_error
+        columns["count"] = np.rint(measured.count).astype(int)
     if measured.flag is not None:
-        columns["flag"] = measured.flag.tolist()
+        columns["flag"] = measured.flag
     return columns
 
 

@@ -1,13 +1,10 @@
 """The verb `sweep`: many scenes at once, on one machine or on many."""
 
-import argparse
-import importlib.util
 import json
 import logging
 import math
-import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -17,8 +14,8 @@ from asperity.base.arguments import FilePath
 from asperity.base.codes import FATAL
 from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.base.table import imported
-from asperity.cli.friction_commands import refuse_overwrite
-from asperity.cli.options import option, pairs, whole
+from asperity.cli.friction_commands import refuse_overwrite, shows_bars
+from asperity.cli.options import exclusive, given, goes_with
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.draw.figure import check_plot
 from asperity.draw.style import drawn_in
@@ -53,22 +50,17 @@ def sweep(args: Namespace) -> None:
 
 def _sweep(args: Namespace) -> None:
     looks = bool(args.plot or args.rank)
+    goes_with(args, "style", "plot")
+    goes_with(args, "at", "plot rank")
     if args.plot is not None:
         check_plot(FilePath(args.plot))
         check_output(FilePath(args.plot))
-    elif args.style is not None:
-        raise InvalidInput(Argument("--style"), ": goes with --plot")
-    if args.at and not looks:
-        raise InvalidInput(Argument("--at"), ": goes with --plot and --rank")
     path = FilePath(args.sweep)
     if path.suffix in (".zarr", ".nc"):
         _look_at_store(args, path, looks)
         return
-    if args.force and args.resume:
-        raise must_be("", "one of them", "--force, --resume")
-    if args.dry_run and (args.force or args.resume):
-        flag = "--force" if args.force else "--resume"
-        raise must_be(flag, "left out with --dry-run, which writes nothing")
+    exclusive(args, "dry-run force resume")
+    exclusive(args, "workers scheduler mpi")
     if args.dry_run and looks:
         problem = ": computes nothing that --plot or --rank could show"
         raise InvalidInput(Argument("--dry-run"), problem)
@@ -92,7 +84,8 @@ def _compute(args: Namespace, executor: Any) -> None:
     if args.dry_run:
         _tell(plan, Executor(executor))
         return
-    how = {"resume": args.resume, "force": args.force, "progress": _bar(path)}
+    bar = run.bar(f"{path}") if shows_bars() else None
+    how = {"resume": args.resume, "force": args.force, "progress": bar}
     with run.computed(plan, executor, output, **how) as dataset:
         _look(args, dataset)
         tell_notes(notes_of(dataset), args.notes)
@@ -107,10 +100,9 @@ def _compute(args: Namespace, executor: Any) -> None:
 
 def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
     """Draw or rank what an earlier sweep computed."""
-    for name in ("output", "workers", "scheduler", "mpi", "resume", "force", "dry_run"):
-        if getattr(args, name):
-            problem = f": {path} is a store: give a SWEEP.toml to compute"
-            raise InvalidInput(Argument(f"--{name.replace('_', '-')}"), problem)
+    for flag in given(args, "output workers scheduler mpi resume force dry-run"):
+        problem = f": {path} is a store: give a SWEEP.toml to compute"
+        raise InvalidInput(Argument(flag), problem)
     if not looks:
         raise InvalidInput("is a store: look at it by --plot or --rank", where=path)
     if args.variables is not None and args.plot is None:
@@ -175,19 +167,9 @@ def _tell(plan: Any, executor: Executor) -> None:
     print_stdout("".join(f"{name} = {json.dumps(one)}\n" for name, one in facts.items()))
 
 
-def _bar(path: Path) -> Any:
-    on_terminal = sys.stderr is not None and sys.stderr.isatty()
-    if not on_terminal or importlib.util.find_spec("tqdm") is None:
-        return None
-    return run.bar(f"{path}")
-
-
 @contextmanager
 def _executor(args: Namespace) -> Iterator[tuple[Any, bool]]:
     """The executor that is asked for, and whether this process is the one that sends tasks."""
-    asked = [args.workers is not None, args.scheduler is not None, args.mpi]
-    if sum(asked) > 1:
-        raise must_be("", "one of them", "--workers, --scheduler, --mpi")
     if args.mpi:
         futures = imported("mpi4py.futures", "mpi")
         with futures.MPICommExecutor() as executor:
@@ -217,40 +199,3 @@ def _client(address: str) -> Any:
     if not client.ncores():
         print_stderr(f"note: {address} has no workers yet: waiting for them\n")
     return client
-
-
-def add_sweep(
-    verb: Callable[..., argparse.ArgumentParser],
-    pictures: Callable[[argparse.ArgumentParser], None],
-    notes: Callable[[argparse.ArgumentParser], None],
-) -> None:
-    added = verb(
-        "sweep",
-        sweep,
-        "friction of many scenes at once, on one machine or on many; pictures and ranks of them",
-        "sweep.toml --output results.zarr --workers 4\n"
-        "  asperity sweep results.zarr --plot results.png --at surface.hurst=0.8\n"
-        "  asperity sweep results.zarr --rank correction.kind",
-    )
-    added.add_argument(
-        "sweep",
-        metavar="SWEEP.toml",
-        help='scene = "scene.toml", and a table [over] of keys with lists; or a store of such a '
-        "sweep, to look at",
-    )
-    option(added, "--output STORE", "results.zarr or results.nc")
-    option(added, "--workers N", "processes of this machine (default: this one)", whole)
-    option(added, "--scheduler ADDRESS", "of Dask workers that run, tcp://host:8786")
-    option(added, "--mpi", "other ranks compute: start it by mpiexec -n 8")
-    option(added, "--resume", "go on with the store of an earlier run")
-    option(added, "--force", "replace a sweep's store that is there")
-    option(added, "--variables NAME,...", "keep these alone (default: all of them); draw the first")
-    option(added, "--dry-run", "tell points, tasks, bytes and seconds")
-    option(added, "--at AXIS=VALUE,...", "look at these values of some axes", pairs, default={})
-    option(
-        added,
-        "--rank AXIS",
-        "tell which value of an axis has most friction, where, and how certainly, as CSV",
-    )
-    pictures(added)
-    notes(added)

@@ -39,7 +39,7 @@ class Table:
     command: str
     inputs: Sequence[Mapping[str, Any]]  # one for each scene or file
     notes: Sequence[Note]
-    columns: Mapping[str, Sequence[Any]]
+    columns: Mapping[str, Any]
 
     def csv(self) -> str:
         """Comment lines with inputs, notes and units, a header line, a row a point."""
@@ -111,7 +111,7 @@ def unit(column: str) -> str:
     return next((u for ending, u in UNITS.items() if column.endswith(ending)), "-")
 
 
-def terminal_table(columns: Mapping[str, Sequence[float]]) -> str:
+def terminal_table(columns: Mapping[str, Iterable[float]]) -> str:
     """Columns of numbers with four digits, right-aligned under their names."""
     cells = [[name, *(f"{value:.4g}" for value in column)] for name, column in columns.items()]
     widths = [max(map(len, column)) for column in cells]

@@ -88,7 +88,7 @@ def test_whatever_the_verb_writes_is_read_as_shifts(sweeps, capsys):
         assert main([*sweeps, "--shift", "b.csv", "--output", "c.csv"]) == 0
     capsys.readouterr()
     assert main([*sweeps, "--output", "a.csv", "--write-shift", "a.csv"]) == 2
-    assert "every output must be a file of its own" in capsys.readouterr().err
+    assert "--output and --write-shift must be different files" in capsys.readouterr().err
 
 
 def modulus(instantaneous, pairs, w):

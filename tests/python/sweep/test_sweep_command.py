@@ -153,7 +153,7 @@ def test_a_bad_file_is_refused(text, said, folder, capsys):
         ("sweep.toml", "--output: is missing"),
         ("sweep.toml --output r.csv", "must end in .zarr or .nc"),
         ("sweep.toml --output r.zarr --force --resume", "--force, --resume: must be one of them"),
-        ("sweep.toml --dry-run --resume", "--resume: must be left out with --dry-run"),
+        ("sweep.toml --dry-run --resume", "--dry-run, --resume: must be one of them"),
         ("sweep.toml --output r.zarr --workers 0", "--workers 0: must be from 1"),
         ("sweep.toml --output r.zarr --variables mu,my", "did you mean mu?"),
         ("sweep.toml --output r.zarr --scheduler nowhere:x", "--scheduler nowhere:x"),
