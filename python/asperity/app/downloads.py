@@ -12,15 +12,13 @@ from pathlib import Path
 from asperity.app.state import State
 from asperity.draw.style import drawn_in
 from asperity.fmu.export import fmu_files
-from asperity.friction_map.build import friction_map
 from asperity.friction_map.look_up import FrictionMap
 from asperity.io.archive import archived
-from asperity.io.table import input_lines
 from asperity.plot.friction import friction_figure
 from asperity.report.make import report_page
-from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
+from asperity.scene.mapped import map_of_scene
 from asperity.scene.model import Scene, SceneFriction
-from asperity.scene.results import Bar, notes_of_all, scene_inputs, table_of
+from asperity.scene.results import Bar, notes_of_all, table_of
 
 # What a download is made of is taken at once; making it may take its time in a thread.
 Make = Callable[[], bytes]
@@ -68,22 +66,11 @@ def _silent(line: str) -> None:
 
 def map_of(scene: Scene, tell: Tell = _silent) -> FrictionMap:
     """The friction map over a box about the scene's pressure and its velocities."""
-    notes = list(scene.notes)
-    inputs = scene_inputs(_unplaced(scene))
-    lines = [f"{line}\n" for line in input_lines(inputs)]
-    return friction_map(
-        scene.spectrum,
-        rubber_of_map(scene),
-        pressure=side_of_map("pressure", None, scene.pressure, notes),
-        velocity=side_of_map("velocity", None, scene.velocity, notes),
-        adhesion=scene.adhesion,
-        correction=scene.correction,
-        text="".join([*(f"note: {note.line}\n" for note in notes), *lines]),
-        checked=CHECKED,
-        progress=lambda share: tell(f"{100 * share:.0f} %"),
-        **{**scene.options, "rtol": MAP_RTOL},
-        **heat_of_map(scene),
-    )
+
+    def progress(share: float) -> None:
+        tell(f"{100 * share:.0f} %")
+
+    return map_of_scene(_unplaced(scene), MAP_RTOL, checked=CHECKED, progress=progress)
 
 
 def fmu_of(made: FrictionMap) -> bytes:

@@ -1,7 +1,6 @@
 """The verb `map`: a friction map for simulators from a scene, or what a map's file says."""
 
 import json
-import os
 from argparse import Namespace
 from functools import partial
 from pathlib import Path
@@ -14,20 +13,18 @@ from asperity.base import quantities
 from asperity.base.arguments import Array, FilePath, reading
 from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
-from asperity.cli.options import typed_options
+from asperity.cli.options import flags, given, typed_options
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.draw.style import drawn_in
 from asperity.fmu.export import PLATFORMS, export_fmu, platforms
 from asperity.friction import friction
-from asperity.friction_map.build import friction_map
 from asperity.friction_map.grid import check_export, grid_file
 from asperity.friction_map.look_up import NOTE_LINE, FrictionMap
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_output, write_files
-from asperity.io.table import input_lines
 from asperity.plot import friction_map as plot_map
-from asperity.scene.mapped import heat_of_map, rubber_of_map, side_of_map
+from asperity.scene.mapped import heat_of_map, map_of_scene, rubber_of_map
 from asperity.scene.model import Scene
 from asperity.scene.progress import with_contacts
 from asperity.scene.scene import load_scene
@@ -40,60 +37,34 @@ def friction_map_of(args: Namespace) -> None:
     """Build, certify, write and draw the map of a scene, or tell what a file holds."""
     if (args.scene is None) == (args.info is None):
         raise must_be("map", "given a SCENE.toml, or --info FILE")
-    asked = {name: getattr(args, name) for name in ("pressure", "velocity", "rtol", "checked")}
-    flags = [
-        name for name in (*asked, "output", "plot", "style") if getattr(args, name) is not None
-    ]
     exported = None if args.export is None else FilePath(args.export)
     if exported is not None:
         check_export(exported)
-        check_output(exported)
-    if args.info is not None:
-        if flags:
-            raise InvalidInput(
-                Argument(f"--{flags[0]}"), ": goes with a SCENE.toml, not with --info"
-            )
-        source = FilePath(args.info)
-        loaded = read_map(source)
-        if exported is not None:
-            refuse_overwrite([exported], [source])
-        write_files(_export(loaded, exported))
-        _tell(args, loaded)
+    outputs = check_outputs(args, export=args.export)
+    if args.info is None:
+        _make(args, outputs, exported)
         return
-    outputs = [*check_outputs(args), *([] if exported is None else [exported])]
-    if len({os.path.realpath(path) for path in outputs}) < len(outputs):
-        raise InvalidInput("--output, --plot and --export must be different files", where=exported)
+    for flag in given(args, "pressure velocity rtol checked output plot style"):
+        raise InvalidInput(Argument(flag), ": goes with a SCENE.toml, not with --info")
+    source = FilePath(args.info)
+    refuse_overwrite(outputs, [source])
+    loaded = read_map(source)
+    write_files(_export(loaded, exported))
+    _tell(args, loaded)
+
+
+def _make(args: Namespace, outputs: list[Path], exported: Path | None) -> None:
     scene = load_scene(args.scene, for_friction=True)
-    heat = heat_of_map(scene)
     refuse_overwrite(outputs, scene.sources)
     with plausible.collected(typed_options(args)) as unusual:
         _check_sides(args, scene)
-    notes = [*scene.notes, *unusual]
-    pressure = side_of_map("pressure", args.pressure, scene.pressure, notes)
-    velocity = side_of_map("velocity", args.velocity, scene.velocity, notes)
-    rtol = args.rtol or scene.stated_rtol or _RTOL
-    options = {**scene.options, "rtol": rtol, "correction": scene.correction}
-    solver = {**scene.inputs["solver"], "rtol": rtol}
-    inputs = {
-        "scene": str(scene.path),
-        **scene.inputs,
-        "solver": solver,
-        "derived": scene.derived,
-    }
-    lines = [*(f"note: {note.line}" for note in notes), *input_lines(inputs)]
-    names = {"rtol": "[solver] rtol"} | {name: f"--{name}" for name in flags}
+    how = {} if args.checked is None else {"checked": args.checked}
+    how |= {"pressure": args.pressure, "velocity": args.velocity, "unusual": unusual}
+    names = flags("pressure", "velocity", "checked") | {"rtol": "[solver] rtol"}
+    if args.rtol is not None:
+        names["rtol"] = "--rtol"
     with rename_in_errors(scene.path, names, scene.typed):
-        made = _shown_while_built(
-            scene,
-            pressure=pressure,
-            velocity=velocity,
-            adhesion=scene.adhesion,
-            words=scene.said,
-            text=_plain("".join(f"{line}\n" for line in lines)),
-            **heat,
-            **({} if args.checked is None else {"checked": args.checked}),
-            **options,
-        )
+        made = _shown_while_built(scene, args.rtol or scene.stated_rtol or _RTOL, **how)
     files = _export(made, exported)
     if args.output is not None:
         files[FilePath(args.output)] = made.to_bytes()
@@ -116,7 +87,7 @@ def _export(made: FrictionMap, path: Path | None) -> dict[Path, bytes]:
     return {path: content}
 
 
-def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
+def _shown_while_built(scene: Scene, rtol: float, **how: Any) -> FrictionMap:
     """The map of a scene, with a bar on a terminal where it takes long."""
     steps = [slice(i, i + 1) for i in range(100)]
     with with_contacts(progress(f"{scene.path}, map"), scene.correction)(steps) as shown:
@@ -127,7 +98,7 @@ def _shown_while_built(scene: Scene, **asked: Any) -> FrictionMap:
             while done < int(share * len(steps)):
                 done = next(left).stop
 
-        return friction_map(scene.spectrum, rubber_of_map(scene), progress=tell, **asked)
+        return map_of_scene(scene, rtol, progress=tell, **how)
 
 
 def _check_sides(args: Namespace, scene: Scene) -> None:
@@ -197,11 +168,6 @@ def _tell(args: Namespace, made: FrictionMap) -> None:
         beyond = f"{made.exceeded} of {made.checked} random points are beyond max_error"
         notes.append(Note(beyond, code="map-error-exceeded"))
     tell_notes(notes, args.notes)
-
-
-def _plain(text: str) -> str:
-    """Without what is no text in a file's name."""
-    return text.encode(errors="backslashreplace").decode()
 
 
 def _short(value: Any) -> str:

@@ -1,12 +1,51 @@
-"""What a friction map takes of a scene: its rubber, its heat and its sides."""
+"""The friction map of a scene: its rubber, its heat, its sides, and the text that it carries."""
 
 from collections.abc import Sequence
 from typing import Any
 
 from asperity.base.arguments import Array, known
 from asperity.base.diagnostics import Argument, Note, must_be
+from asperity.friction_map.build import friction_map
+from asperity.friction_map.look_up import FrictionMap
+from asperity.io.table import input_lines
 from asperity.rubber import Rubber
 from asperity.scene.model import Scene
+from asperity.scene.results import scene_inputs
+
+Sides = Sequence[float] | None
+
+
+def map_of_scene(
+    scene: Scene,
+    rtol: float,
+    *,
+    pressure: Sides = None,
+    velocity: Sides = None,
+    unusual: Sequence[Note] = (),
+    **how: Any,
+) -> FrictionMap:
+    """The map between the sides that are asked for, or those of the scene. `unusual` has notes on
+    what was asked for; `how` goes to `friction_map`."""
+    notes = [*scene.notes, *unusual]
+    sides: dict[str, Any] = {
+        "pressure": _side("pressure", pressure, scene.pressure, notes),
+        "velocity": _side("velocity", velocity, scene.velocity, notes),
+    }
+    inputs = scene_inputs(scene) | {"solver": {**scene.inputs["solver"], "rtol": rtol}}
+    lines = [*(f"note: {note.line}" for note in notes), *input_lines(inputs)]
+    text = "".join(f"{line}\n" for line in lines)
+    return friction_map(
+        scene.spectrum,
+        rubber_of_map(scene),
+        correction=scene.correction,
+        adhesion=scene.adhesion,
+        words=scene.said,
+        text=text.encode(errors="backslashreplace").decode(),  # names of files need be no text
+        **sides,
+        **{**scene.options, "rtol": rtol},
+        **heat_of_map(scene),
+        **how,
+    )
 
 
 def heat_of_map(scene: Scene) -> dict[str, Any]:
@@ -34,9 +73,7 @@ def rubber_of_map(scene: Scene) -> Rubber:
     return at_reference
 
 
-def side_of_map(
-    name: str, sides: Sequence[float] | None, swept: Array, notes: list[Note]
-) -> tuple[float, float]:
+def _side(name: str, sides: Sides, swept: Array, notes: list[Note]) -> tuple[float, float]:
     """The sides of the map: as asked for, else as the scene sweeps."""
     if sides is not None:
         return sides[0], sides[1]

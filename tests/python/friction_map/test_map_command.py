@@ -99,10 +99,10 @@ def test_what_cannot_be_done_is_said_in_a_line(scene, capsys, arguments, message
 INTERRUPTED = """
 import os, signal, sys, threading
 from asperity.cli.main import main
-from asperity.cli import map_command
+from asperity.scene import mapped
 
 signal.signal(signal.SIGINT, signal.default_int_handler)  # nohup and CI start with it ignored
-running, compute = threading.Event(), map_command.friction_map
+running, compute = threading.Event(), mapped.friction_map
 
 def interrupted(surface, rubber, *, progress, **asked):
     def tell(share):
@@ -115,7 +115,7 @@ def interrupt():
     running.wait()
     os.kill(os.getpid(), signal.SIGINT)
 
-map_command.friction_map = interrupted
+mapped.friction_map = interrupted
 threading.Thread(target=interrupt, daemon=True).start()
 sys.exit(main(["map", "scene.toml", "--output", "a.fmap", "--checked", "2000000000"]))  # an hour
 """
