@@ -1,20 +1,19 @@
 """Who may talk to the app: whoever knows its token, from its own pages, and in bounded requests."""
 
 import hmac
-from collections.abc import Awaitable, Callable, MutableMapping
-from http.cookies import CookieError, SimpleCookie
-from typing import Any
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import urlsplit
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.requests import HTTPConnection
+from starlette.responses import PlainTextResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from asperity.app.files import MOST_BYTES
 
-Message = MutableMapping[str, Any]
-Receive = Callable[[], Awaitable[Message]]
-Send = Callable[[Message], Awaitable[None]]
-Application = Callable[[Message, Receive, Send], Awaitable[None]]
-
 MOST_BODY = MOST_BYTES + 2**20  # of a request: a file and what forms put around it
 _REFUSED = "asperity app: open the address that its terminal shows, with the token.\n"
+_TOO_LARGE = f"A file must have at most {MOST_BYTES // 2**20} MB.\n"
+_CLOSE = {"connection": "close"}
 _HEADERS = {
     # everything comes from here; the page's own framework compiles templates
     "content-security-policy": "default-src 'self'; script-src 'self' 'unsafe-inline' "
@@ -34,50 +33,43 @@ class Guard:
     others, who may share the host but not its port, are told by the header Origin.
     """
 
-    def __init__(self, application: Application, token: str, port: int) -> None:
-        self._application = application
-        self._token = token
+    def __init__(self, application: ASGIApp, token: str, port: int) -> None:
+        self._application, self._token = application, token
         self._cookie = f"asperity-{port}"  # cookies know no ports
 
-    async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "lifespan":
             await self._application(scope, receive, send)
             return
-        headers = {k.decode("latin-1").lower(): v.decode("latin-1") for k, v in scope["headers"]}
-        by_address = self._is_token(_in_address(scope))
-        if not (by_address or self._is_token(self._in_cookie(headers))) or _foreign(headers):
-            await _refuse(scope, send, 403, _REFUSED)
-            return
-        if scope["type"] != "http":
+        asked = HTTPConnection(scope)
+        by_address = self._is_token(asked.query_params.get("token", ""))
+        by_cookie = self._is_token(asked.cookies.get(self._cookie, ""))
+        is_let_in = (by_address or by_cookie) and not _foreign(asked.headers)
+        length = asked.headers.get("content-length", "0")
+        if scope["type"] == "websocket" and not is_let_in:
+            await send({"type": "websocket.close", "code": 1008})
+        elif scope["type"] == "websocket":
             await self._application(scope, receive, send)
-            return
-        length = headers.get("content-length", "0")
-        if not length.isdigit() or int(length) > MOST_BODY:
-            most = MOST_BYTES // 2**20
-            await _refuse(scope, send, 413, f"A file must have at most {most} MB.\n")
-            return
-        answer = self._with_headers(send, cookie=by_address)
-        await self._application(scope, _bounded(receive), answer)
+        elif not is_let_in:
+            await PlainTextResponse(_REFUSED, 403, _CLOSE)(scope, receive, send)
+        elif not length.isdigit() or int(length) > MOST_BODY:
+            await PlainTextResponse(_TOO_LARGE, 413, _CLOSE)(scope, receive, send)
+        else:
+            answer = self._with_headers(send, cookie=by_address)
+            await self._application(scope, _bounded(receive), answer)
 
     def _is_token(self, given: str) -> bool:
         return hmac.compare_digest(given.encode(), self._token.encode())
 
-    def _in_cookie(self, headers: dict[str, str]) -> str:
-        try:
-            result = SimpleCookie(headers.get("cookie", "")).get(self._cookie)
-        except CookieError:
-            return ""
-        return "" if result is None else result.value
-
     def _with_headers(self, send: Send, *, cookie: bool) -> Send:
-        added = dict(_HEADERS)
-        if cookie:
-            added["set-cookie"] = f"{self._cookie}={self._token}; HttpOnly; SameSite=Strict; Path=/"
-
         async def answer(message: Message) -> None:
             if message["type"] == "http.response.start":
-                pairs = [(k.encode(), v.encode()) for k, v in added.items()]
-                message["headers"] = [*message.get("headers", []), *pairs]
+                headers = MutableHeaders(scope=message)
+                for name, value in _HEADERS.items():
+                    headers.append(name, value)
+                if cookie:
+                    given = f"{self._cookie}={self._token}; HttpOnly; SameSite=Strict; Path=/"
+                    headers.append("set-cookie", given)
             await send(message)
 
         return answer
@@ -102,24 +94,10 @@ def _bounded(receive: Receive) -> Receive:
     return bounded
 
 
-def _in_address(scope: Message) -> str:
-    query: bytes = scope.get("query_string", b"")
-    return parse_qs(query.decode("latin-1")).get("token", [""])[0]
-
-
-def _foreign(headers: dict[str, str]) -> bool:
+def _foreign(headers: Headers) -> bool:
     """Whether a page of another origin asks."""
     origin = headers.get("origin")
     try:
         return origin is not None and urlsplit(origin).netloc != headers.get("host")
     except ValueError:  # as of "http://["
         return True
-
-
-async def _refuse(scope: Message, send: Send, status: int, text: str) -> None:
-    if scope["type"] == "websocket":
-        await send({"type": "websocket.close", "code": 1008})
-        return
-    kind = [(b"content-type", b"text/plain; charset=utf-8"), (b"connection", b"close")]
-    await send({"type": "http.response.start", "status": status, "headers": kind})
-    await send({"type": "http.response.body", "body": text.encode()})

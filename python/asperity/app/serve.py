@@ -13,7 +13,6 @@ from threading import Timer
 from typing import Any
 
 from asperity._core import InvalidInput
-from asperity.app.guard import Guard
 from asperity.base.diagnostics import MUST_BE, Argument, valued
 from asperity.base.table import to_install
 
@@ -68,6 +67,7 @@ def _run(bound: socket.socket, token: str, port: int) -> None:
     from nicegui import app, ui
 
     from asperity.app.files import remove_old_folders
+    from asperity.app.guard import Guard
     from asperity.app.page import close_all, show_page
     from asperity.app.upload import ADDRESS, receive
 

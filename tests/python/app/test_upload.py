@@ -6,7 +6,6 @@ from typing import Any
 import pytest
 
 from asperity.app.files import MOST_FILES
-from asperity.app.guard import TooLargeError
 
 upload = pytest.importorskip("asperity.app.upload", reason="the app needs asperity[app]")
 requests = pytest.importorskip("starlette.requests", reason="the app needs asperity[app]")
@@ -66,7 +65,7 @@ HOSTILE = {
     "no form": ("abc", "text/plain", 400),
     "a form of fields": ("file=abc", "application/x-www-form-urlencoded", 400),
     "an empty body": ("", FORM, 400),
-    "a body that is too long": (TooLargeError(), FORM, 413),
+    "a body that is too long": (upload.TooLargeError(), FORM, 413),
     "a sender that is gone": (None, FORM, 400),
 }
 
