@@ -9,9 +9,11 @@ from typing import Any
 import numpy as np
 
 from asperity._core import InvalidInput
+from asperity.adhesion import Adhesion
 from asperity.base import quantities
 from asperity.base.arguments import Array, FilePath, reading
 from asperity.base.diagnostics import Argument, Note, must_be
+from asperity.base.parameters import parameters
 from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
 from asperity.cli.options import flags, given, typed_options
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
@@ -111,16 +113,15 @@ def _check_sides(args: Namespace, scene: Scene) -> None:
 
 def _errors(made: FrictionMap, scene: Scene, pressure: Array, velocity: Array) -> Array:
     """|mu of the map / mu of the solver - 1| at pressures in a column and velocities in a row."""
-    options = {**scene.options, "rtol": _TRUTH, "correction": scene.correction}
-    heat, at = heat_of_map(scene), {}
-    if heat:  # of several temperatures the lowest, as the picture of mu
-        at = {"temperature": heat["temperature"][0]}
-    compute = partial(friction, scene.spectrum, rubber_of_map(scene), velocity=velocity)
-    compute = partial(compute, adhesion=scene.adhesion, **options, **heat | at)
+    options = {**scene.options, "rtol": _TRUTH, **heat_of_map(scene)}
+    at = {}
+    if "heating" in options:  # of several temperatures the lowest, as the picture of mu
+        at["temperature"] = options["temperature"] = options["temperature"][0]
+    options |= {"correction": scene.correction, "adhesion": scene.adhesion, "velocity": velocity}
+    compute = partial(friction, scene.spectrum, rubber_of_map(scene), **options)
     rows = [slice(i, i + 1) for i in range(pressure.size)]
-    with with_contacts(progress(f"{scene.path}, errors of the map"), scene.correction)(
-        rows
-    ) as each:
+    bar = with_contacts(progress(f"{scene.path}, errors of the map"), scene.correction)
+    with bar(rows) as each:
         truth = np.concatenate([compute(pressure=pressure[row]).mu for row in each])
     mu: Array = made.mu(pressure, velocity, **at)
     # a rubber without loss and without adhesion has no friction to be off by
@@ -135,26 +136,14 @@ def read_map(path: Path) -> FrictionMap:
 
 
 def _tell(args: Namespace, made: FrictionMap) -> None:
-    facts: dict[str, Any] = {
-        "pressure_pa": made.pressure,
-        "velocity_m_s": made.velocity,
-        "rtol": made.rtol,
-        "max_error": made.max_error,
-        "checked": made.checked,
-        "exceeded": made.exceeded,
-        "largest_checked_error": made.largest_checked_error,
-        "cells": made.cells,
-        "bytes": len(made.to_bytes()),
-    }
+    facts: dict[str, Any] = {"pressure_pa": made.pressure, "velocity_m_s": made.velocity}
+    names = ("rtol", "max_error", "checked", "exceeded", "largest_checked_error", "cells")
+    facts |= {name: getattr(made, name) for name in names}
+    facts["bytes"] = len(made.to_bytes())
     if made.temperature is not None:
         facts |= {"temperature_k": made.temperature, "memory_error": made.memory_error}
     if made.adhesion_law is not None:
-        law = made.adhesion_law
-        facts |= {
-            "shear_stress_pa": law.shear_stress,
-            "reference_velocity_m_s": law.reference_velocity,
-            "width": law.width,
-        }
+        facts |= {one.key: getattr(made.adhesion_law, one.name) for one in parameters(Adhesion)}
     if args.json:
         print_stdout(json.dumps({**facts, "notes": made.notes, "text": made.text}, indent=1) + "\n")
         return

@@ -2,7 +2,7 @@
 
 import math
 from argparse import Namespace
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -60,20 +60,24 @@ def spectrum(args: Namespace) -> None:
         measured = result.spectrum
         plausible.check("rms slope", measured.rms_slope, quantities.SLOPE, path=path)
     fit, fit_notes = _fit(measured, args)
-    cutoff = measured.cutoff_for_slope(1.3)
-    reached = cutoff < measured.q1
+    cutoff: float | None = measured.cutoff_for_slope(1.3)
+    if cutoff is not None and cutoff >= measured.q1:
+        cutoff = None
     inputs = {"file": str(path), "channel": args.channel, **result.inputs}
     options = {name: getattr(args, name) for name in ("unit", "q_min", "q_max")}
     inputs |= {name: one for name, one in options.items() if one is not None}
-    of, shape = result.statistics, ("skewness", "kurtosis")
+    of, of_map = result.statistics, isinstance(result.flat, HeightMap)
     numbers: dict[str, float | None] = {
-        **{"rms_height_m": measured.rms_height, "rms_slope": measured.rms_slope},
+        "rms_height_m": measured.rms_height,
+        "rms_slope": measured.rms_slope,
         "rms_slope_by_differences": of.rms_slope,
-        **{name: getattr(of, name) for name in shape},
-        **{"z_max_m": of.z_max, "z_min_m": of.z_min},
-        "slope_cutoff_1.3_per_m": cutoff if reached else None,
+        "skewness": of.skewness,
+        "kurtosis": of.kurtosis,
+        "z_max_m": of.z_max,
+        "z_min_m": of.z_min,
+        "slope_cutoff_1.3_per_m": cutoff,
     }
-    if isinstance(result.flat, HeightMap):
+    if of_map:
         numbers |= _iso_25178(of)
     if result.lay is not None:
         numbers["slope_anisotropy"] = result.lay.ratio
@@ -83,39 +87,24 @@ def spectrum(args: Namespace) -> None:
         numbers |= {"reliable_from_per_m": band[0], "reliable_to_per_m": band[1]}
     if fit is not None:
         numbers |= _fitted(fit)
-    of_map = isinstance(result.flat, HeightMap)
     floor = scan.noise_floor(measured) if of_map else None
     if floor is not None:
         numbers["noise_from_per_m"] = floor
-    notes = [
-        *unusual,
-        *fit_notes,
-        *result.notes,
-        *(scan.line_notes(measured, numbers["slope_cutoff_1.3_per_m"]) if of_map else ()),
-    ]
-    if not reached:
+    notes = [*unusual, *fit_notes, *result.notes]
+    if of_map:
+        notes += scan.line_notes(measured, cutoff)
+    if cutoff is None:
         text = (
             "slope_cutoff = 1.3 ends nothing here: the rms slope up to pi / pixel, "
             f"{measured.q1:.4g} 1/m, is {measured.rms_slope:.3g}"
         )
         notes.append(Note(text, code="no-cutoff"))
-    if floor is not None:
-        slope = measured.truncated(q1=floor).rms_slope
-        text = (
-            f"C(q) ends flat, as no surface does: from {floor:.3g} 1/m on noise of the instrument, "
-            "or roughness finer than the pixels, is half of it or more; without what lies there "
-            f"the rms slope is {slope:.3g} instead of {measured.rms_slope:.3g}"
-        )
-        step = f"end the spectrum there: q1_per_m = {floor:.3g}"
-        notes.append(Note(text, code="noise-in-spectrum", next_step=step))
+    notes += scan.noise_notes(floor, measured)
     notes.append(Note(_serves(measured, band, floor), code="reliable-band"))
     table = Table("spectrum", [{**inputs, "found": numbers}], notes, _rows(measured))
-    drawn = cutoff if reached else None
     whole = measured.truncated(q1=measured.q1)
-    draw = partial(
-        plot_surface.spectrum_figure, result.raw, result.flat, whole, fit, drawn, floor, result.lay
-    )
-    write_outputs(args, table, draw, numbers)
+    drawn = result.raw, result.flat, whole, fit, cutoff, floor, result.lay
+    write_outputs(args, table, partial(plot_surface.spectrum_figure, *drawn), numbers)
 
 
 def _iso_25178(of: Any) -> dict[str, float]:
@@ -155,9 +144,8 @@ def _in_memory(path: Path, args: Namespace) -> Measured:
     if path.is_dir():
         raise InvalidInput("is a folder; a Zarr array is read with --tiles 4096", where=path)
     with rename_in_errors(None, {**_FLAGS, "max_fraction": "--max-dropouts"}):
-        how = {name: getattr(args, name) for name in ("channel", "pixel_size", "unit")}
-        raw, filled = read_filled(path, max_fraction=args.max_dropouts, **how)
-    how = {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
+        raw, filled = read_filled(path, max_fraction=args.max_dropouts, **_values(args, _FLAGS))
+    how = _transform(args)
     with rename_in_errors(path, {}):
         measured = surface_spectrum(filled, **how)
     lay = scan.lay_of(filled, measured, **how)
@@ -166,47 +154,46 @@ def _in_memory(path: Path, args: Namespace) -> Measured:
         "shape": list(raw.heights.shape),
         "pixel_size_m": raw.spacing if isinstance(raw, LineScan) else list(raw.pixel_size),
         "dropout_fraction": raw.dropout_fraction,
-        **{name: getattr(args, name) for name in ("window", "detrend")},
+        **_values(args, ("window", "detrend")),
     }
     return Measured(measured, flat, facts, lay, scan.scan_notes(filled, lay), raw, flat)
 
 
 def _by_tiles(path: Path, args: Namespace) -> Measured:
     """The same of a map that need not fit in memory."""
-    detrend = None if args.detrend == "none" else args.detrend
+    how, most = _transform(args), float(args.max_dropouts)
     threads = 1 if args.threads is None else args.threads
     with rename_in_errors(None, _FLAGS):
-        source = open_map(path, channel=args.channel, pixel_size=args.pixel_size, unit=args.unit)
+        source = open_map(path, **_values(args, _FLAGS))
     with rename_in_errors(path, _TILED):
-        measured = power_spectrum_of(
-            source,
-            window=args.window,
-            detrend=detrend,
-            tiles=args.tiles,
-            overlap=args.overlap,
-            max_dropouts=float(args.max_dropouts),
-            threads=threads,
-        )
-        statistics = statistics_of(source, detrend or "offset", threads=threads)
+        in_tiles = _values(args, ("tiles", "overlap"))
+        measured = power_spectrum_of(source, **how, **in_tiles, max_dropouts=most, threads=threads)
+        statistics = statistics_of(source, how["detrend"] or "offset", threads=threads)
         raw = thinned(source, threads=threads)
         filled = raw.fill_dropouts(max_fraction=0.999)
-        tile = middle_tile(source, args.tiles, float(args.max_dropouts))
-    lay = None
-    if tile is not None:
-        lay = scan.lay_of(tile, measured, window=args.window, detrend=detrend)
+        tile = middle_tile(source, args.tiles, most)
+    lay = None if tile is None else scan.lay_of(tile, measured, **how)
     notes = [] if tile is None else scan.scan_notes(tile, lay)
     facts = {
         "shape": list(source.shape),
         "pixel_size_m": list(source.pixel_size),
         "dropout_fraction": statistics.dropout_fraction,
-        **{name: getattr(args, name) for name in ("window", "detrend")},
+        **_values(args, ("window", "detrend")),
         "tiles": args.tiles if isinstance(args.tiles, int) else list(args.tiles),
         "overlap": 0.5 if args.overlap is None else args.overlap,
-        "max_dropouts": float(args.max_dropouts),
+        "max_dropouts": most,
     }
     notes = [note.followed_by(" (a tile in the middle)") for note in notes]
-    flat = scan.flat(filled, detrend)
+    flat = scan.flat(filled, how["detrend"])
     return Measured(measured, statistics, facts, lay, notes, raw, flat)
+
+
+def _values(args: Namespace, names: Iterable[str]) -> dict[str, Any]:
+    return {name: getattr(args, name) for name in names}
+
+
+def _transform(args: Namespace) -> dict[str, Any]:
+    return {"window": args.window, "detrend": None if args.detrend == "none" else args.detrend}
 
 
 def _rows(measured: TabulatedSpectrum) -> dict[str, Any]:

@@ -215,6 +215,20 @@ def noise_floor(spectrum: TabulatedSpectrum) -> float | None:
     return float(q[middle][drowned][0]) if drowned.any() else None
 
 
+def noise_notes(floor: float | None, spectrum: Spectrum) -> list[Note]:
+    """A note where a spectrum goes on beyond the wavenumber from which noise is half of it."""
+    if floor is None or spectrum.q1 <= floor:
+        return []
+    sound = spectrum.truncated(q1=floor).rms_slope if floor > spectrum.q0 else 0.0
+    text = (
+        f"C(q) ends flat, as no surface does: from {floor:.3g} 1/m on noise of the instrument, "
+        "or roughness finer than the pixels, is half of it or more; without what lies there the "
+        f"rms slope is {sound:.3g} instead of {spectrum.rms_slope:.3g}"
+    )
+    step = f"end the spectrum there: q1_per_m = {floor:.3g}"
+    return [Note(text, code="noise-in-spectrum", next_step=step)]
+
+
 def _exponent(q: Array, density: Array) -> tuple[float, float]:
     """That of the power law through the rows, and its standard error by their scatter."""
     x, y = np.log(q) - np.log(q).mean(), np.log(density) - np.log(density).mean()

@@ -39,6 +39,7 @@ from asperity.scene.scan import (
     lay_of,
     line_notes,
     noise_floor,
+    noise_notes,
     read_filled,
     scan_notes,
     surface_spectrum,
@@ -172,7 +173,7 @@ def build_surface(path: Path, table: object, read: Read | None = None) -> Surfac
             derived |= {"slope_anisotropy": lay.ratio, "lay_deg": lay.degrees}
         if isinstance(scan, HeightMap):
             notes += line_notes(measured, spectrum.q1 if "slope_cutoff" in values else None)
-        notes += _noise_notes(floor, spectrum)
+        notes += noise_notes(floor, spectrum)
     drawn = drawn_spectrum(spectrum)
     if fit is not None:
         derived |= {"hurst": fit.hurst, "hurst_standard_error": fit.standard_errors["hurst"]}
@@ -274,17 +275,6 @@ def _fit_notes(fit: SelfAffineFit, spectrum: Spectrum) -> list[Note]:
     where = " and ".join(beyond)
     text = f"the spectrum {where} is the fitted law gone on with, beyond the reliable rows"
     return [Note(text, code="law-beyond-rows")]
-
-
-def _noise_notes(floor: float | None, spectrum: Spectrum) -> list[Note]:
-    if floor is None or spectrum.q1 <= floor:
-        return []
-    text = (
-        f"from {floor:.3g} 1/m on noise of the instrument, or roughness finer than the pixels, is "
-        f"half of C(q) or more: q1 is {spectrum.q1:.3g}"
-    )
-    step = f"end the spectrum there: q1_per_m = {floor:.3g}"
-    return [Note(text, code="noise-in-spectrum", next_step=step)]
 
 
 def _slope_notes(

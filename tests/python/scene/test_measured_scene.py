@@ -152,7 +152,7 @@ def test_noise_that_the_spectrum_reaches_into_is_noted(dma):
     surface = '[surface]\nfile = "scan.npy"\npixel_size_m = 5e-5\nunit = "m"\n'
     slow = SCENE.replace("from = 1e-4, to = 1e-3", "from = 1e-3, to = 1e-2")
     (note,) = [one for one in loaded(dma, slow, surface).notes if "noise of the instrument" in one]
-    begins = float(note.split()[1])
+    begins = float(note.partition("from ")[2].split()[0])
     cut = surface + f"q1_per_m = {0.99 * begins}\n"
     assert not any("noise of the instrument" in one for one in loaded(dma, slow, cut).notes)
 
