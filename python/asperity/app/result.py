@@ -18,6 +18,7 @@ from asperity.app.words import allowed_velocities, in_one_line
 from asperity.app.worker import Found, Shows, Worker, contributions, in_thread
 from asperity.base.diagnostics import Note, html_items
 from asperity.plot.design import design_figure
+from asperity.report.contents import numbers_of
 from asperity.report.errors import errors_of, solved_contacts
 from asperity.scene.design import design_at_largest, worth_text
 from asperity.scene.model import Scene, SceneFriction
@@ -298,19 +299,10 @@ def _items(lines: Sequence[str]) -> str:
 
 
 def _table(scene: Scene, curves: SceneFriction) -> str:
-    """The numbers at the first pressure, as HTML."""
-    columns = {
-        "v [m/s]": scene.velocity,
-        "mu": curves.mu[0],
-        "hysteresis": curves.hysteresis[0],
-        "adhesion": curves.adhesion[0],
-        **({"across": curves.lateral[0]} if scene.knows_directions else {}),
-        "A/A0": curves.contact_area[0],
-        "numerical error": curves.error_estimate[0],
-    }
-    head = "".join(f'<th scope="col">{name}</th>' for name in columns)
-    rows = zip(*columns.values(), strict=True)
-    cells = ["".join(f"<td>{x:.4g}</td>" for x in row) for row in rows]
+    """The numbers, as HTML."""
+    names, rows = numbers_of([scene], [curves])
+    head = "".join(f'<th scope="col">{name}</th>' for name in names)
+    cells = ["".join(f"<td>{one}</td>" for one in row) for row in rows]
     body = "".join(f"<tr>{row}</tr>" for row in cells)
     title = "<caption>Friction coefficient</caption>"
     return (

@@ -5,11 +5,9 @@ from typing import Any
 
 from nicegui import ui
 
+from asperity.app.alternatives import AlternativesPart
 from asperity.app.guess import QUANTITIES, UNITS
-from asperity.app.parts import Picture, part
-from asperity.app.state import State
 from asperity.app.upload import Upload
-from asperity.app.worker import Shows, Worker
 from asperity.base.quantities import temperature_text
 from asperity.plot.scene import rubber_figure
 from asperity.scene.model import Scene
@@ -30,27 +28,14 @@ _DROP = "Drop DMA sweeps or a master curve here, or choose files"
 _NO_TEMPERATURE = "none: a master curve"
 
 
-class RubberPart(Shows):
+class RubberPart(AlternativesPart):
     """Where the rubber is chosen, its modulus and its shift factors."""
 
-    def __init__(self, state: State, worker: Worker) -> None:
-        self._state, self._worker = state, worker
-        self._drawn: object = None
-        with part("Rubber", "rubber-title"):
-            how: Any = {"value": state.rubber, "label": "Rubber", "on_change": self._chosen}
-            self._choice = ui.select(list(state.rubbers), **how)
-            self._choice.props("dense outlined").classes("w-full")
-            Upload(_DROP, self._taken, self._say, multiple=True)
-            self._menus = ui.element("div").classes("w-full")
-            self._problem = ui.label("").classes("problem").props('role="alert"')
-            self._left = ui.label("").classes("soft")
-            self._facts = ui.label("").classes("soft")
-            self._picture = Picture()
+    table = "rubber"
 
-    async def _chosen(self, event: Any) -> None:
-        if event.value != self._state.rubber:
-            self._state.rubber = event.value
-            await self._worker.changed()
+    def _add_fields(self) -> None:
+        Upload(_DROP, self._taken, self._say, multiple=True)
+        self._menus = ui.element("div").classes("w-full")
 
     async def _taken(self, files: list[tuple[str, bytes]]) -> None:
         kept = []
@@ -104,21 +89,8 @@ class RubberPart(Shows):
             if column is None and name != "temperature":
                 self._say(f"which column is the {name}? None is chosen")
                 return
-        self._say("making the master curve ...")
-        take = await self._worker.attempt(lambda: self._state.use_dma(files, settings), self._say)
-        if take is None:
-            return
-        self._say("")
-        self._left.set_text(take())
-        self.refresh()
-        await self._worker.changed()
-
-    def _say(self, problem: str) -> None:
-        self._problem.set_text(problem)
-
-    def refresh(self) -> None:
-        """Show the choices of another scene."""
-        self._choice.set_options(list(self._state.rubbers), value=self._state.rubber)
+        read = partial(self._state.use_dma, files, settings)
+        await self._take_up(read, "making the master curve ...")
 
     def show_scene(self, scene: Scene) -> None:
         built = scene.built_rubber

@@ -43,22 +43,14 @@ def serve(host: str, port: int, *, browser: bool, tell: Callable[[str], None]) -
 
 def listening(host: str, port: int) -> socket.socket:
     """A socket that connections may wait at already."""
+    if not 0 <= port <= 65535:
+        raise InvalidInput(Argument("--port"), " ", valued(port), MUST_BE, "in 0..65535")
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    bound = socket.socket(family, socket.SOCK_STREAM)
-    bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
-        bound.bind((host, port))
-        bound.listen(64)
+        return socket.create_server((host, port), family=family, backlog=64)
     except OSError as error:
-        bound.close()
-        reason = error.strerror or error
-        raise InvalidInput(
-            f"--host {host}, --port {port}: cannot be listened at: {reason}"
-        ) from error
-    except OverflowError as error:
-        bound.close()
-        raise InvalidInput(Argument("--port"), " ", valued(port), MUST_BE, "in 0..65535") from error
-    return bound
+        problem = f"--host {host}, --port {port}: cannot be listened at: {error.strerror or error}"
+        raise InvalidInput(problem) from error
 
 
 def _run(bound: socket.socket, token: str, port: int) -> None:

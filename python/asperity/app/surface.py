@@ -6,10 +6,9 @@ from typing import Any
 
 from nicegui import ui
 
-from asperity.app.parts import Changed, Picture, Quantity, controls, part
-from asperity.app.state import State
+from asperity.app.alternatives import AlternativesPart
+from asperity.app.parts import Changed, Quantity, controls
 from asperity.app.upload import Upload
-from asperity.app.worker import Shows, Worker
 from asperity.base.arguments import brief
 from asperity.plot.scene import surface_figure
 from asperity.scene.model import Scene
@@ -26,23 +25,15 @@ _ENDS = (
 )
 
 
-class SurfacePart(Shows):
+class SurfacePart(AlternativesPart):
     """Where the surface is chosen, its map and its spectrum."""
 
-    def __init__(self, state: State, worker: Worker) -> None:
-        self._state, self._worker = state, worker
-        self._drawn: object = None
-        with part("Surface", "surface-title"):
-            how: Any = {"value": state.surface, "label": "Surface", "on_change": self._chosen}
-            self._choice = ui.select(list(state.surfaces), **how)
-            self._choice.props("dense outlined").classes("w-full")
-            self._scan_fields()
-            with ui.element("div").classes("w-full") as self._law:
-                self._law_fields()
-            self._problem = ui.label("").classes("problem").props('role="alert"')
-            self._facts = ui.label("").classes("soft")
-            self._picture = Picture()
-        self._see()
+    table = "surface"
+
+    def _add_fields(self) -> None:
+        self._scan_fields()
+        with ui.element("div").classes("w-full") as self._law:
+            self._law_fields()
 
     def _scan_fields(self) -> None:
         self._upload = Upload("Drop a scan here, or choose a file", self._taken, self._say)
@@ -103,13 +94,6 @@ class SurfacePart(Shows):
 
         return changed
 
-    async def _chosen(self, event: Any) -> None:
-        if event.value == self._state.surface:
-            return
-        self._state.surface = event.value
-        self._see()
-        await self._worker.changed()
-
     async def _taken(self, files: list[tuple[str, bytes]]) -> None:
         name, content = files[-1]
         if await self._worker.attempt(lambda: self._state.keep_scan(name, content), self._say):
@@ -125,25 +109,11 @@ class SurfacePart(Shows):
         if self._state.scan is None:
             return
         given = {key: value for key, value in self._settings.items() if value not in ("", None)}
-        self._say("reading the scan ...")
-        take = await self._worker.attempt(lambda: self._state.use_scan(given), self._say)
-        if take is None:
-            return
-        take()
-        self._say("")
-        self.refresh()
-        await self._worker.changed()
-
-    def _see(self) -> None:
-        self._law.set_visibility(self._state.surface == "law")
-
-    def _say(self, problem: str) -> None:
-        self._problem.set_text(problem)
+        await self._take_up(lambda: self._state.use_scan(given), "reading the scan ...")
 
     def refresh(self) -> None:
-        """Show the choices of another scene."""
-        self._choice.set_options(list(self._state.surfaces), value=self._state.surface)
-        self._see()
+        super().refresh()
+        self._law.set_visibility(self._state.surface == "law")
 
     def show_scene(self, scene: Scene) -> None:
         if scene.surface is self._drawn:

@@ -1,14 +1,11 @@
 """Friction over the direction of sliding: polar axes, or plain ones where those are given."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from asperity.draw.style import grey
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from asperity.draw.style import Axes, grey
 
 DIRECTION = "Direction of sliding, from $x$ towards $y$ [°]"
 _ACROSS = "across, of either sign"
@@ -17,7 +14,7 @@ _TICKS = 45  # degrees between the angles that are named
 
 
 def draw_directions(
-    axes: "Axes", curves: Sequence[Any], colours: Sequence[Any], *, labelled: bool, band: str = ""
+    axes: Axes, curves: Sequence[Any], colours: Sequence[Any], *, labelled: bool, band: str = ""
 ) -> None:
     """Draw mu of curves over degrees, with its band, and the force across it: in polar axes its
     size. `band` says what the band is."""

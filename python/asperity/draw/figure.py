@@ -5,19 +5,24 @@ import textwrap
 import warnings
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput
 from asperity.base.table import to_install
-from asperity.draw.style import circle, colours, fatal_notes, narrow, palette, shades
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
-    from matplotlib.figure import Figure
+from asperity.draw.style import (
+    Axes,
+    Figure,
+    ScalarMappable,
+    circle,
+    colours,
+    fatal_notes,
+    narrow,
+    palette,
+    shades,
+)
 
 FORMATS = (".png", ".svg", ".pdf")
 MOST_ENTRIES = 8  # curves of a legend; a colour bar tells more
@@ -42,7 +47,7 @@ def check_plot(path: Path) -> None:
         ) from error
 
 
-def new_figure(panels: int, *, polar: bool = False) -> "tuple[Figure, Sequence[Axes]]":
+def new_figure(panels: int, *, polar: bool = False) -> tuple[Figure, Sequence[Axes]]:
     """A figure of one to three panels in a row, or of two rows of two to four; in a single column
     all of them under one another. The first one may be polar."""
     from matplotlib.figure import Figure
@@ -62,7 +67,7 @@ def new_figure(panels: int, *, polar: bool = False) -> "tuple[Figure, Sequence[A
     return figure, drawn
 
 
-def picture(figure: "Figure", path: Path) -> bytes:
+def picture(figure: Figure, path: Path) -> bytes:
     """The figure as the bytes of a file of that ending, the same for the same figure."""
     from matplotlib import rc_context
 
@@ -77,7 +82,7 @@ def picture(figure: "Figure", path: Path) -> bytes:
     return out.getvalue()
 
 
-def legend(axes: "Axes", **how: Any) -> None:
+def legend(axes: Axes, **how: Any) -> None:
     """A legend where it covers nothing: beside a single panel, else above its own, whose title
     becomes that of the legend. The panels keep their height: the figure grows by it.
 
@@ -109,7 +114,13 @@ def legend(axes: "Axes", **how: Any) -> None:
     figure.set_figheight(figure.get_figheight() + grown)
 
 
-def _lines_above(axes: "Axes") -> int:
+def legend_outside(figure: Figure, handles: Sequence[Any], names: Any, **how: Any) -> None:
+    """One legend of all panels: beside them, in a single column below."""
+    where: Any = "outside lower center" if narrow() else "outside right upper"
+    figure.legend(handles, names, loc=where, fontsize="small", **how)
+
+
+def _lines_above(axes: Axes) -> int:
     """Lines of the highest legend in the row of some axes."""
     figure: Any = axes.get_figure()
     spec: Any = axes.get_subplotspec()
@@ -126,7 +137,7 @@ def _lines_above(axes: "Axes") -> int:
 
 
 def shaded(
-    axes: "Axes | Sequence[Axes]",
+    axes: Axes | Sequence[Axes],
     values: NDArray[np.float64],
     title: str,
     *,
@@ -141,7 +152,7 @@ def shaded(
     return np.asarray(shades()(norm(values)))
 
 
-def turned(axes: "Axes", degrees: NDArray[np.float64], title: str) -> NDArray[np.float64]:
+def turned(axes: Axes, degrees: NDArray[np.float64], title: str) -> NDArray[np.float64]:
     """A colour a direction, alike after half a turn; with a bar where that has a title."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import ListedColormap, Normalize
@@ -153,7 +164,7 @@ def turned(axes: "Axes", degrees: NDArray[np.float64], title: str) -> NDArray[np
     return np.asarray(circle(degrees / 180))
 
 
-def named(axes: "Axes", names: Sequence[str]) -> None:
+def named(axes: Axes, names: Sequence[str]) -> None:
     """A bar with a field a curve, in the order of `colours`, and their names beside it."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import BoundaryNorm, ListedColormap
@@ -166,13 +177,13 @@ def named(axes: "Axes", names: Sequence[str]) -> None:
     drawn.ax.minorticks_off()
 
 
-def bar(axes: "Axes | Sequence[Axes]", colours_of: "ScalarMappable", **how: Any) -> Any:
+def bar(axes: Axes | Sequence[Axes], colours_of: ScalarMappable, **how: Any) -> Any:
     """A colour bar beside axes."""
     figure: Any = (axes[0] if isinstance(axes, Sequence) else axes).get_figure()
     return figure.colorbar(colours_of, ax=axes, **how)
 
 
-def tell_fatal_notes(figure: "Figure") -> None:
+def tell_fatal_notes(figure: Figure) -> None:
     """Write the fatal notes of the result below all panels."""
     notes = fatal_notes()
     if not notes:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,10 +21,7 @@ from asperity.draw.figure import (
     shaded,
     turned,
 )
-from asperity.draw.style import colours, grey
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
+from asperity.draw.style import Axes, colours, grey
 
 TEMPERATURE = "Temperature $T_0$"
 _MOST_SHADED = 3  # curves whose model error can be told apart
@@ -158,7 +155,7 @@ def _columns(result: Any, temperature: float | None) -> dict[str, NDArray[np.flo
 
 
 def draw_friction(
-    axes: "Axes",
+    axes: Axes,
     curves: Sequence[Curve],
     abscissa: str,
     *,
@@ -210,7 +207,7 @@ def draw_friction(
     return tints
 
 
-def label_abscissa(axes: "Axes", abscissa: str, *, celsius: bool) -> None:
+def label_abscissa(axes: Axes, abscissa: str, *, celsius: bool) -> None:
     """Scale and label what is drawn over."""
     if abscissa == TEMPERATURE:
         axes.set_xlabel(f"{abscissa} [{'°C' if celsius else 'K'}]")
@@ -220,7 +217,7 @@ def label_abscissa(axes: "Axes", abscissa: str, *, celsius: bool) -> None:
         axes.set(xscale="log", xlabel=abscissa)
 
 
-def draw_result(axes: "Axes", result: Any, *, band: str = "") -> None:
+def draw_result(axes: Axes, result: Any, *, band: str = "") -> None:
     """Draw one result as Python has it."""
     abscissa = abscissa_of([result], temperatures=False)
     curves = list(curves_of([result], [""], abscissa, [None], celsius=False))
@@ -235,7 +232,7 @@ def band_text(level: float) -> str:
 
 
 def _draw(
-    axes: "Axes",
+    axes: Axes,
     curve: Curve,
     colour: Any,
     kinds: dict[str, str],
@@ -261,7 +258,7 @@ def _around(curve: Curve) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return np.maximum(curve.mu - off, 0), curve.mu + off
 
 
-def _tell_heat(axes: "Axes", curves: Sequence[Curve], *, parts: bool) -> None:
+def _tell_heat(axes: Axes, curves: Sequence[Curve], *, parts: bool) -> None:
     """Entries of the legend for mu with and without heat."""
     heated = [curve for curve in curves if np.isfinite(curve.cold).any()]
     if not heated:
@@ -274,7 +271,7 @@ def _tell_heat(axes: "Axes", curves: Sequence[Curve], *, parts: bool) -> None:
         axes.plot([], [], color=grey(0.3), linewidth=_WIDTH, label=name)
 
 
-def _mark_guesses(axes: "Axes", curves: Sequence[Curve]) -> None:
+def _mark_guesses(axes: Axes, curves: Sequence[Curve]) -> None:
     """Grey around what no measured modulus carries, half of the way to points that one does."""
     label: str | None = "most of the hysteresis from\nan extrapolated modulus"
     for curve in curves:
@@ -291,7 +288,7 @@ def _mark_guesses(axes: "Axes", curves: Sequence[Curve]) -> None:
         label = None  # one entry for all
 
 
-def _scale(axes: "Axes", curves: Sequence[Curve]) -> None:
+def _scale(axes: Axes, curves: Sequence[Curve]) -> None:
     """From zero, or over decades where a linear axis would lay a whole curve on its foot."""
     mu = np.concatenate([y[np.isfinite(y)] for curve in curves for y in (curve.mu, curve.cold)])
     largest = [float(np.nanmax(curve.mu)) for curve in curves]
@@ -303,7 +300,7 @@ def _scale(axes: "Axes", curves: Sequence[Curve]) -> None:
         axes.set_ylim(bottom=0)
 
 
-def _shows(axes: "Axes", low: NDArray[np.float64], high: NDArray[np.float64]) -> bool:
+def _shows(axes: Axes, low: NDArray[np.float64], high: NDArray[np.float64]) -> bool:
     """Whether a band is anywhere seen beside the line that runs through it."""
     x = np.zeros_like(low)
     ends = [axes.transData.transform(np.column_stack([x + 1, y]))[:, 1] for y in (low, high)]
@@ -311,7 +308,7 @@ def _shows(axes: "Axes", low: NDArray[np.float64], high: NDArray[np.float64]) ->
     return bool(np.max(width, where=np.isfinite(width), initial=0) > 2 * _WIDTH)
 
 
-def _tell_band(axes: "Axes", label: str, *, seen: bool, **look: Any) -> None:
+def _tell_band(axes: Axes, label: str, *, seen: bool, **look: Any) -> None:
     """An entry of the legend with a swatch, or words alone where the band cannot be seen."""
     if seen:
         axes.fill_between([], [], **look, label=label)
@@ -319,7 +316,7 @@ def _tell_band(axes: "Axes", label: str, *, seen: bool, **look: Any) -> None:
         axes.plot([], [], linestyle="", label=label + TOO_NARROW)
 
 
-def _tell_errors(axes: "Axes", curves: Sequence[Curve], model: str) -> None:
+def _tell_errors(axes: Axes, curves: Sequence[Curve], model: str) -> None:
     """Entries of the legend for the error of the model and that of the numbers."""
     seen = any(_shows(axes, *_around(curve)) for curve in curves)
     _tell_band(axes, model, seen=seen, **_hatch(grey(0.3)))

@@ -11,7 +11,12 @@ from asperity.base.codes import FATAL
 from asperity.base.diagnostics import Note, fatal_first
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes as Axes
+    from matplotlib.cm import ScalarMappable as ScalarMappable
     from matplotlib.colors import Colormap
+    from matplotlib.figure import Figure as Figure
+else:  # matplotlib is imported where something is drawn
+    Axes = Colormap = Figure = ScalarMappable = Any
 
 STYLES = ("print", "single", "dark")
 
@@ -82,7 +87,7 @@ def colours(count: int) -> Sequence[Any]:
     return list(shades()(np.linspace(0, 1, count)))
 
 
-def shades() -> "Colormap":
+def shades() -> Colormap:
     """Colours from dark to light, without the end that would not show on the paper: on a dark
     screen the darkest has three times its luminance."""
     from matplotlib import colormaps

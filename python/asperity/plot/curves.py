@@ -1,7 +1,6 @@
 """Contact area over magnification, and the distribution of the pressure (matplotlib)."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +15,8 @@ from asperity.draw.figure import (
     pressure_text,
     shaded,
 )
-from asperity.draw.style import grey, palette
+from asperity.draw.style import Axes, grey, palette
 from asperity.scene.model import Scene
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _DASHES = ("-", "--", ":", "-.")
 _MOST_CURVES = 9  # of many, so that each can be followed
@@ -77,7 +73,7 @@ def _some(count: int, most: int) -> NDArray[np.int_]:
     return np.unique(np.linspace(0, count - 1, most).round().astype(int))
 
 
-def _draw_distributions(axes: "Axes", scene: Scene, smallest_area: float) -> None:
+def _draw_distributions(axes: Axes, scene: Scene, smallest_area: float) -> None:
     """P(sigma) at magnifications that are a third, two thirds and all of the way in ln q."""
     q0, q1 = scene.spectrum.q0, scene.spectrum.q1
     nominal = float(scene.pressure[0])

@@ -4,9 +4,10 @@ from pathlib import Path
 
 import numpy as np
 
+from asperity.base.arguments import known
 from asperity.base.quantities import ZERO_CELSIUS
 from asperity.draw.figure import new_figure, picture
-from asperity.draw.style import grey, palette
+from asperity.draw.style import Axes, grey, palette
 from asperity.scene.design import Design, Worth
 
 _BARS = 0.8  # of a decade
@@ -26,15 +27,15 @@ def design_figure(design: Design, path: Path) -> bytes:
     ):
         rows = [one for one in here if one.part == part]
         height = [percent * one.mu for one in rows]
-        bars = np.log10([_known(one.lower) for one in rows]) + 0.1 + place * _BARS / 2
+        bars = np.log10([known(one.lower) for one in rows]) + 0.1 + place * _BARS / 2
         first.bar(bars, height, _BARS / 2, align="edge", color=colour, label=label)
-    decades = np.log10([_known(one.lower) for one in here if one.part in ("storage", "loss")])
+    decades = np.log10([known(one.lower) for one in here if one.part in ("storage", "loss")])
     first.set_xticks(np.arange(decades.min(), decades.max() + 2))
     first.set_xlabel(r"decade of $\omega a_T$, $\log_{10}$ (rad/s)")
     _name_temperatures(first, [one for one in here if one.part == "loss"])
     first.legend(frameon=False, loc="lower left")
     waves = [one for one in here if one.part == "spectrum"]
-    ends = np.log10([1e6 * _known(one.lower) for one in waves])
+    ends = np.log10([1e6 * known(one.lower) for one in waves])
     height = [percent * one.mu for one in waves]
     second.bar(ends + 0.1, height, _BARS, align="edge", color=palette()[1])
     second.set_xticks(np.arange(ends.min(), ends.max() + 2))
@@ -47,18 +48,13 @@ def design_figure(design: Design, path: Path) -> bytes:
     return picture(figure, path)
 
 
-def _name_temperatures(axes: object, rows: list[Worth]) -> None:
+def _name_temperatures(axes: Axes, rows: list[Worth]) -> None:
     """Above each decade the temperature that it has in a DMA at 10 Hz, as far as it is known."""
-    known = [one for one in rows if one.temperature is not None]
-    if not known:
+    here = [one for one in rows if one.temperature is not None]
+    if not here:
         return
-    top = axes.secondary_xaxis("top")  # type: ignore[attr-defined]
-    places = [float(np.log10(_known(one.lower))) + 0.5 for one in known]
-    celsius = [round(_known(one.temperature) - ZERO_CELSIUS) for one in known]
+    top = axes.secondary_xaxis("top")
+    places = [float(np.log10(known(one.lower))) + 0.5 for one in here]
+    celsius = [round(known(one.temperature) - ZERO_CELSIUS) for one in here]
     top.set_xticks(places, [f"{one}".replace("-", "−") for one in celsius])
     top.set_xlabel("temperature in a DMA at 10 Hz [°C]")
-
-
-def _known(found: float | None) -> float:
-    assert found is not None
-    return found

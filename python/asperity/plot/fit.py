@@ -3,20 +3,24 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from asperity.adhesion import AdhesionFit
 from asperity.base.quantities import ZERO_CELSIUS
-from asperity.draw.figure import MOST_ENTRIES, VELOCITY, new_figure, picture, pressure_text
+from asperity.draw.figure import (
+    MOST_ENTRIES,
+    VELOCITY,
+    legend_outside,
+    new_figure,
+    picture,
+    pressure_text,
+)
 from asperity.draw.friction import TOO_NARROW, band_text, curves_of, draw_friction
-from asperity.draw.style import colours, grey, narrow
+from asperity.draw.style import Axes, colours, grey, narrow
 from asperity.scene.experiment import Experiment, Fitted, nearest_pressure
 from asperity.scene.scene_fit import SceneFit
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> bytes:
@@ -43,8 +47,7 @@ def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> by
             entries.setdefault(label, handle)
     for label in list(entries):  # what is seen in the other panel is no longer unseen
         entries.pop(label + TOO_NARROW, None)
-    where: Any = "outside lower center" if narrow() else "outside right upper"
-    figure.legend(list(entries.values()), list(entries), loc=where, fontsize="small")
+    legend_outside(figure, [*entries.values()], [*entries])
     return picture(figure, path)
 
 
@@ -83,12 +86,11 @@ def scene_fit_figure(fit: SceneFit, path: Path) -> bytes:
         f"{100 * fit.rms_same_mu:.2g} %",
         fontsize="small",
     )
-    where: Any = "outside lower center" if narrow() else "outside right upper"
-    figure.legend(*first.get_legend_handles_labels(), loc=where, fontsize="small")
+    legend_outside(figure, *first.get_legend_handles_labels())
     return picture(figure, path)
 
 
-def _draw(axes: "Axes", fit: Fitted, experiment: Experiment) -> None:
+def _draw(axes: Axes, fit: Fitted, experiment: Experiment) -> None:
     """mu of the scene with its parts and its band, and the points in the colours of its curves."""
     scene, measured = fit.scene, experiment.measured
     given, celsius = [scene.temperature], scene.in_celsius

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,12 +18,9 @@ from asperity.draw.friction import (
     draw_friction,
     label_abscissa,
 )
-from asperity.draw.style import grey, shades
+from asperity.draw.style import Axes, grey, shades
 from asperity.scan_contact import ScanContact
 from asperity.scene.model import Scene, SceneFriction
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _PROFILES = 5  # velocities at which the temperature of each roughness is drawn
 
@@ -72,7 +69,7 @@ def _model_text(scenes: Sequence[Scene]) -> str:
     return f"model error (rms),{' or'.join(sources)}"
 
 
-def _draw_rises(axes: "Axes", curves: Sequence[Curve], tints: Sequence[Any]) -> None:
+def _draw_rises(axes: Axes, curves: Sequence[Curve], tints: Sequence[Any]) -> None:
     """How much warmer the rubber is at q1, in the colours of the curves."""
     for curve, colour in zip(curves, tints, strict=True):
         if np.isfinite(curve.rise).any():
@@ -82,7 +79,7 @@ def _draw_rises(axes: "Axes", curves: Sequence[Curve], tints: Sequence[Any]) -> 
     axes.set_ylabel("Temperature rise at $q_1$ [K]")
 
 
-def _draw_profiles(axes: "Axes", scene: Scene) -> None:
+def _draw_profiles(axes: Axes, scene: Scene) -> None:
     """The rise that each roughness feels, at some of the velocities and the first pressure."""
     from matplotlib.ticker import LogLocator, NullFormatter
 

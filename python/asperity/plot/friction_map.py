@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,9 +9,6 @@ from numpy.typing import NDArray
 from asperity.draw.figure import PRESSURE, VELOCITY, new_figure, picture
 from asperity.draw.style import narrow, shades
 from asperity.friction_map.look_up import FrictionMap
-
-if TYPE_CHECKING:
-    pass
 
 _VELOCITIES, _PRESSURES = 241, 161
 _COARSER, _COARSER_HOT = 2, 5  # the grid of errors

@@ -2,20 +2,16 @@
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from asperity.base.quantities import ZERO_CELSIUS, temperature_text
 from asperity.dma import MasterCurveBuild
 from asperity.draw.figure import legend, new_figure, picture
-from asperity.draw.style import grey, palette, shades
+from asperity.draw.style import Axes, grey, palette, shades
 from asperity.prony_fit import PronyFit
 from asperity.shift_factors import WlfFit
 from asperity.sweeps import Isotherm
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 _STORAGE, _LOSS, _TAN = 0, 1, 2  # of the palette
 
@@ -48,7 +44,7 @@ def rubber_figure(
     return picture(figure, path)
 
 
-def draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm], *, celsius: bool) -> None:
+def draw_isotherms(axes: Axes, isotherms: Sequence[Isotherm], *, celsius: bool) -> None:
     temperatures = np.array([isotherm.temperature for isotherm in isotherms])
     span = max(float(np.ptp(temperatures)), 1.0)
     for isotherm in isotherms:
@@ -64,7 +60,7 @@ def draw_isotherms(axes: "Axes", isotherms: Sequence[Isotherm], *, celsius: bool
     _logarithmic(axes, "Angular frequency $\\omega$ [rad/s]", "Modulus [Pa]")
 
 
-def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) -> None:
+def _draw_master(axes: Axes, build: MasterCurveBuild, prony: PronyFit | None) -> None:
     points = build.points
     w = points.angular_frequency
     axes.plot(
@@ -87,9 +83,7 @@ def _draw_master(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) 
     legend(axes)
 
 
-def draw_shifts(
-    axes: "Axes", build: MasterCurveBuild, wlf: WlfFit | None, *, celsius: bool
-) -> None:
+def draw_shifts(axes: Axes, build: MasterCurveBuild, wlf: WlfFit | None, *, celsius: bool) -> None:
     zero = ZERO_CELSIUS if celsius else 0.0
     axes.errorbar(
         build.temperature - zero,
@@ -111,7 +105,7 @@ def draw_shifts(
     legend(axes)
 
 
-def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None) -> None:
+def _draw_residual(axes: Axes, build: MasterCurveBuild, prony: PronyFit | None) -> None:
     axes.axhline(0, color=grey(0.4), linewidth=0.8)
     axes.set(
         xlabel="Reduced frequency $a_T\\, \\omega$ [rad/s]",
@@ -135,6 +129,6 @@ def _draw_residual(axes: "Axes", build: MasterCurveBuild, prony: PronyFit | None
     legend(axes)
 
 
-def _logarithmic(axes: "Axes", x: str, y: str) -> None:
+def _logarithmic(axes: Axes, x: str, y: str) -> None:
     axes.set(xscale="log", yscale="log", xlabel=x, ylabel=y)
     legend(axes)

@@ -2,14 +2,13 @@
 
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from asperity._core import InvalidInput, NotConverged
 from asperity.base.quantities import temperature_text
 from asperity.draw.figure import legend, new_figure, picture
-from asperity.draw.style import grey, palette
+from asperity.draw.style import Axes, grey, palette
 from asperity.plot.rubber import draw_isotherms, draw_shifts
 from asperity.plot.surface import draw_scan, draw_spectrum, without_trend
 from asperity.scene.model import Scene
@@ -17,9 +16,6 @@ from asperity.scene.scan import flat, surface_spectrum
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.shift_factors import WlfFit
 from asperity.spectrum import TabulatedSpectrum
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 def surface_figure(scene: Scene, path: Path) -> bytes:
@@ -39,7 +35,7 @@ def surface_figure(scene: Scene, path: Path) -> bytes:
 
 
 def _draw_used(
-    axes: "Axes", scene: Scene, measured: TabulatedSpectrum | None, fit: SelfAffineFit | None
+    axes: Axes, scene: Scene, measured: TabulatedSpectrum | None, fit: SelfAffineFit | None
 ) -> None:
     """C(q) as it was measured, and the part of it that the scene computes with."""
     spectrum = scene.spectrum

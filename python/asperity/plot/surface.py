@@ -2,21 +2,17 @@
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from asperity.draw.figure import legend, new_figure, picture
-from asperity.draw.style import grey, narrow, palette, paper
+from asperity.draw.style import Axes, Figure, grey, narrow, palette, paper
 from asperity.scene.scan import LAY, Lay, Scan, nyquist
 from asperity.self_affine_fit import SelfAffineFit
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import HeightMap, metric_unit
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _ABOVE = 10  # points between a panel and its title: the 0 of a map's corner stands there
 # inches: of a map, of the scales and the bar beside it, and of the panel of the spectrum
@@ -54,7 +50,7 @@ def without_trend(raw: Scan) -> str:
     return "trend removed" + (", holes filled" if raw.dropout_fraction > 0 else "")
 
 
-def _fit_to_maps(figure: "Figure", scan: HeightMap) -> None:
+def _fit_to_maps(figure: Figure, scan: HeightMap) -> None:
     """Give two panels of maps the width that their shape fills, and the spectrum its own."""
     ny, nx = scan.heights.shape
     wide = nx * scan.pixel_size[1] / (ny * scan.pixel_size[0])
@@ -63,7 +59,7 @@ def _fit_to_maps(figure: "Figure", scan: HeightMap) -> None:
     figure.axes[0].get_gridspec().set_width_ratios([width, width, _SPECTRUM])  # type: ignore[union-attr]
 
 
-def draw_scan(axes: "Axes", scan: Scan, lay: Lay | None = None) -> None:
+def draw_scan(axes: Axes, scan: Scan, lay: Lay | None = None) -> None:
     """The heights, and the direction of the ridges where there is one."""
     scan.plot(axes)
     if not isinstance(scan, HeightMap):
@@ -76,7 +72,7 @@ def draw_scan(axes: "Axes", scan: Scan, lay: Lay | None = None) -> None:
         _draw_lay(axes, lay, size / metric_unit(float(size.max()))[0])
 
 
-def _draw_lay(axes: "Axes", lay: Lay, size: NDArray[np.float64]) -> None:
+def _draw_lay(axes: Axes, lay: Lay, size: NDArray[np.float64]) -> None:
     """A line along the ridges through the middle, with its angle."""
     y, x = size / 2
     step = 0.3 * min(size) * np.array([math.cos(lay.direction), math.sin(lay.direction)])
@@ -94,7 +90,7 @@ def _draw_lay(axes: "Axes", lay: Lay, size: NDArray[np.float64]) -> None:
 
 
 def draw_spectrum(
-    axes: "Axes",
+    axes: Axes,
     spectrum: TabulatedSpectrum,
     fit: SelfAffineFit | None,
     cutoff: float | None,

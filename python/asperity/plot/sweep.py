@@ -1,7 +1,7 @@
 """Small multiples of a sweep: panels over two axes, curves of a third (matplotlib)."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -12,17 +12,14 @@ from asperity.draw.figure import (
     MOST_ENTRIES,
     PRESSURE,
     VELOCITY,
+    legend_outside,
     picture,
     pressure_text,
     shaded,
     tell_fatal_notes,
 )
-from asperity.draw.style import colours, grey, narrow
+from asperity.draw.style import Axes, Figure, colours, grey, narrow
 from asperity.io.fields import without_unit
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 _MOST_PANELS = 8  # along either axis
 _TITLES = {"conditions.velocity_m_s": VELOCITY, "conditions.pressure_pa": PRESSURE}
@@ -110,7 +107,7 @@ def _roles(dataset: Any, name: str) -> list[Any]:
     return [x, lines, *panels, None, None][:4]
 
 
-def _grid(across: int, down: int) -> "tuple[Figure, list[Axes]]":
+def _grid(across: int, down: int) -> tuple[Figure, list[Axes]]:
     from matplotlib.figure import Figure
 
     if narrow():
@@ -129,7 +126,7 @@ def _over_decades(values: Any) -> bool:
     return bool(values.min() > 0 and values.max() / values.min() > 20)
 
 
-def _dress(axes: "Axes", dataset: Any, x: str, panel: list[tuple[str, int]]) -> None:
+def _dress(axes: Axes, dataset: Any, x: str, panel: list[tuple[str, int]]) -> None:
     if _over_decades(dataset[x].values):
         axes.set_xscale("log")
     axes.set_title(", ".join(_value(dataset[axis][i]) for axis, i in panel), fontsize="small")
@@ -137,16 +134,15 @@ def _dress(axes: "Axes", dataset: Any, x: str, panel: list[tuple[str, int]]) -> 
     axes.grid(color=grey(0.9), linewidth=0.5)
 
 
-def _tell_colours(figure: "Figure", lines: Any, tints: Any, title: str) -> None:
+def _tell_colours(figure: Figure, lines: Any, tints: Any, title: str) -> None:
     """A legend of what the colours mean."""
     from matplotlib.lines import Line2D
 
     handles = [Line2D([], [], color=tint) for tint in tints]
-    where: Any = "outside lower center" if narrow() else "outside right upper"
     pascal = _in_pascal(lines)
     names = [pressure_text(float(one)) if pascal else _text(one) for one in lines.values]
-    small = {"fontsize": "small", "title_fontsize": "small"}
-    figure.legend(handles, names, loc=where, title=_short(lines.name) if pascal else title, **small)
+    title = _short(lines.name) if pascal else title
+    legend_outside(figure, handles, names, title=title, title_fontsize="small")
 
 
 def _title(dataset: Any, axis: str) -> str:

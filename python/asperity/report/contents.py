@@ -102,7 +102,7 @@ def _result(scenes: Sequence[Scene], results: Sequence[SceneFriction], *, severa
     most = max(range(len(scenes)), key=lambda i: float(results[i].mu.max()))
     scene, result = scenes[most], results[most]
     at = f"{scene.temperature:.5g} K" if several else ""
-    head, rows = _rows(scenes, results)
+    head, rows = numbers_of(scenes, results)
     shown, title = thinned(rows)
     return Result(
         heading=f"At {at}" if several else "",
@@ -124,9 +124,10 @@ def thinned(rows: Sequence[Any]) -> tuple[Sequence[Any], str]:
     return [rows[i] for i in kept], f", {MOST_ROWS} of {len(rows)} rows; the CSV has all"
 
 
-def _rows(
+def numbers_of(
     scenes: Sequence[Scene], results: Sequence[SceneFriction]
 ) -> tuple[list[str], list[list[str]]]:
+    """The heads of the columns and the rows of a table for people."""
     table = table_of(scenes, results)
     columns: dict[str, Any] = {
         head: table.columns[name] for name, head in _COLUMNS.items() if name in table.columns

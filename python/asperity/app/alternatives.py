@@ -1,0 +1,67 @@
+"""What the parts of the surface and of the rubber have in common: a choice among tables of a scene,
+files that are dropped to be another one, and a picture of the one that is chosen."""
+
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import ui
+
+from asperity.app.parts import Picture, part
+from asperity.app.state import State, Take
+from asperity.app.worker import Shows, Worker
+
+
+class AlternativesPart(Shows):
+    """A part of the page for one table of the scene."""
+
+    table = ""  # "surface" or "rubber", whose alternatives the state has in the plural
+
+    def __init__(self, state: State, worker: Worker) -> None:
+        self._state, self._worker = state, worker
+        self._drawn: object = None
+        title = self.table.capitalize()
+        with part(title, f"{self.table}-title"):
+            how: Any = {"value": self._chosen, "label": title, "on_change": self._choose}
+            self._choice = ui.select(self._names, **how)
+            self._choice.props("dense outlined").classes("w-full")
+            self._add_fields()
+            self._problem = ui.label("").classes("problem").props('role="alert"')
+            self._remark = ui.label("").classes("soft")
+            self._facts = ui.label("").classes("soft")
+            self._picture = Picture()
+        self.refresh()
+
+    def _add_fields(self) -> None:
+        """What stands between the choice and the picture."""
+        raise NotImplementedError
+
+    @property
+    def _names(self) -> list[str]:
+        return list(getattr(self._state, f"{self.table}s"))
+
+    @property
+    def _chosen(self) -> str:
+        return str(getattr(self._state, self.table))
+
+    async def _choose(self, event: Any) -> None:
+        if event.value != self._chosen:
+            setattr(self._state, self.table, event.value)
+            self.refresh()
+            await self._worker.changed()
+
+    async def _take_up(self, read: Callable[[], Take], meanwhile: str) -> None:
+        """Choose what is read, unless it cannot be."""
+        self._say(meanwhile)
+        take = await self._worker.attempt(read, self._say)
+        if take is not None:
+            self._say("")
+            self._remark.set_text(take())
+            self.refresh()
+            await self._worker.changed()
+
+    def _say(self, said: str) -> None:
+        self._problem.set_text(said)
+
+    def refresh(self) -> None:
+        """Show the choices of another scene."""
+        self._choice.set_options(self._names, value=self._chosen)
