@@ -12,11 +12,12 @@ from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Argument, Note, must_be, refusal
-from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite, write_outputs
+from asperity.cli.friction_commands import check_outputs, progress, write_outputs
 from asperity.cli.options import exclusive, goes_with, typed_options
 from asperity.cli.streams import print_stderr
 from asperity.io import plausible
 from asperity.io.fields import in_keys, nearest, rename_in_errors
+from asperity.io.files import refuse_overwrite
 from asperity.io.read_friction import read_friction
 from asperity.io.table import Table
 from asperity.plot import fit as plot_fit

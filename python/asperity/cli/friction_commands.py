@@ -4,7 +4,7 @@ import importlib.util
 import os
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -23,7 +23,7 @@ from asperity.demo import FILES, input_files
 from asperity.draw.figure import check_plot
 from asperity.draw.style import drawn_in
 from asperity.io.fields import MOST_ROWS, refuse
-from asperity.io.files import check_directory, check_output, write_files
+from asperity.io.files import check_directory, check_output, refuse_overwrite, write_files
 from asperity.io.table import Table, terminal_table
 from asperity.plot import curves as plot
 from asperity.plot import friction as plot_friction
@@ -130,14 +130,6 @@ def check_outputs(args: Namespace, **others: str | None) -> list[Path]:
             both = f"--{first} and --{flag.replace('_', '-')}"
             raise InvalidInput(f"{both} must be different files", where=outputs[-1])
     return outputs
-
-
-def refuse_overwrite(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
-    """Refuse to write over what is read."""
-    taken = {os.path.realpath(path) for path in inputs}
-    for path in outputs:
-        if os.path.realpath(path) in taken:
-            raise InvalidInput("is an input: choose another name for the output", where=path)
 
 
 def write_outputs(

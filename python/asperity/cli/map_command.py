@@ -14,7 +14,7 @@ from asperity.base import quantities
 from asperity.base.arguments import Array, FilePath, reading
 from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.base.parameters import parameters
-from asperity.cli.friction_commands import check_outputs, progress, refuse_overwrite
+from asperity.cli.friction_commands import check_outputs, progress
 from asperity.cli.options import flags, given, typed_options
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.draw.style import drawn_in
@@ -24,7 +24,7 @@ from asperity.friction_map.grid import check_export, grid_file
 from asperity.friction_map.look_up import NOTE_LINE, FrictionMap
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
-from asperity.io.files import check_output, write_files
+from asperity.io.files import check_output, refuse_overwrite, write_files
 from asperity.plot import friction_map as plot_map
 from asperity.scene.mapped import heat_of_map, map_of_scene, rubber_of_map
 from asperity.scene.model import Scene

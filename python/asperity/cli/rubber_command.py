@@ -10,12 +10,12 @@ from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Note, fatal_first, refusal
-from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
+from asperity.cli.friction_commands import check_outputs, write_outputs
 from asperity.cli.options import flags, typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
-from asperity.io.files import write_files
+from asperity.io.files import refuse_overwrite, write_files
 from asperity.io.prony_input import prony_input
 from asperity.io.read_dma import read_isotherms
 from asperity.io.read_shift_factors import read_shift_factors

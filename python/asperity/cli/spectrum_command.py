@@ -15,10 +15,11 @@ from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import MUST_BE, Argument, Note, valued
 from asperity.base.iso_25178 import height_parameters
-from asperity.cli.friction_commands import check_outputs, refuse_overwrite, write_outputs
+from asperity.cli.friction_commands import check_outputs, write_outputs
 from asperity.cli.options import flags, goes_with, typed_options
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
+from asperity.io.files import refuse_overwrite
 from asperity.io.open_map import open_map
 from asperity.io.table import Table
 from asperity.measured_spectrum import power_spectrum_of

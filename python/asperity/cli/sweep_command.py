@@ -14,13 +14,13 @@ from asperity.base.arguments import FilePath
 from asperity.base.codes import FATAL
 from asperity.base.diagnostics import Argument, Note, must_be
 from asperity.base.table import imported
-from asperity.cli.friction_commands import refuse_overwrite, shows_bars
+from asperity.cli.friction_commands import shows_bars
 from asperity.cli.options import exclusive, given, goes_with
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.draw.figure import check_plot
 from asperity.draw.style import drawn_in
 from asperity.io.fields import nearest
-from asperity.io.files import check_output, write_whole
+from asperity.io.files import check_output, refuse_overwrite, write_whole
 from asperity.io.table import Table
 from asperity.plot.sweep import sweep_figure
 from asperity.scene.scene import read_toml

@@ -3,7 +3,7 @@
 import errno
 import os
 import stat
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -84,6 +84,14 @@ def check_output(path: Path) -> None:
         if mode is None or stat.S_ISREG(mode):
             with tempfile.TemporaryFile(dir=target.parent):
                 pass  # a trial: permissions alone say little about /proc, or to root
+
+
+def refuse_overwrite(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
+    """Refuse to write over what is read."""
+    taken = {os.path.realpath(path) for path in inputs}
+    for path in outputs:
+        if os.path.realpath(path) in taken:
+            raise InvalidInput("is an input: choose another name for the output", where=path)
 
 
 def check_directory(directory: Path, names: Iterable[str], *, force: bool) -> None:

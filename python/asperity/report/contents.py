@@ -21,8 +21,7 @@ from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.results import notes_of_all, scene_inputs, table_of
 
 
-@dataclass(frozen=True)
-class Source:
+class Source(NamedTuple):
     """A file, and what tells it from any other."""
 
     path: Path
@@ -32,21 +31,15 @@ class Source:
 
 def digests(paths: Sequence[Path]) -> list[Source]:
     """Each file once, in the order in which they come."""
-    return [_digest(path) for path in dict.fromkeys(paths)]
+    return [Source(path, path.stat().st_size, sha256(path)) for path in dict.fromkeys(paths)]
 
 
 def check_unchanged(sources: Sequence[Source]) -> None:
     """Refuse files that have changed since: the report would tell of others."""
     for source in sources:
-        if _digest(source.path) != source:
-            raise InvalidInput(
-                "has changed while the report was made: start again", where=source.path
-            )
-
-
-def _digest(path: Path) -> Source:
-    result = sha256(path)
-    return Source(path, path.stat().st_size, result)
+        if digests([source.path]) != [source]:
+            problem = "has changed while the report was made: start again"
+            raise InvalidInput(problem, where=source.path)
 
 
 MOST_ROWS = 400  # of a table on the page; the CSV beside it has all

@@ -78,7 +78,12 @@ class Drawings:
             1 + heated + any(s.heating is not None and s.velocity.size > 1 for s in scenes),
         )
 
-    def surface(self, scene: Scene, name: str) -> Figure:
+    def of_file(self, scene: Scene, result: SceneFriction, name: str) -> dict[str, Figure | None]:
+        """What a file is made of, and what makes its friction."""
+        surface, rubber = self._surface(scene, name), self._rubber(scene, name)
+        return {"surface": surface, "rubber": rubber, "design": self._design(scene, result, name)}
+
+    def _surface(self, scene: Scene, name: str) -> Figure:
         spectrum = scene.spectrum
         band = f"{spectrum.q0:.4g} to {spectrum.q1:.4g} 1/m"
         law = isinstance(spectrum, SelfAffineSpectrum) and scene.surface.scan is None
@@ -94,7 +99,7 @@ class Drawings:
             1 if scene.surface.scan is None else 2,
         )
 
-    def rubber(self, scene: Scene, name: str) -> Figure:
+    def _rubber(self, scene: Scene, name: str) -> Figure:
         built = scene.built_rubber
         made = "" if built.build is None else ", its isotherms and their shift factors"
         at = "" if built.temperature is None else f" at {built.temperature:.5g} K"
@@ -110,7 +115,7 @@ class Drawings:
             1 if built.build is None else 3,
         )
 
-    def design(self, scene: Scene, result: SceneFriction, name: str) -> Figure | None:
+    def _design(self, scene: Scene, result: SceneFriction, name: str) -> Figure | None:
         """What 10 % more of each part is worth where mu is largest; None where nothing tells."""
         found = design_at_largest(scene, result.mu)
         if found is None:

@@ -2,20 +2,18 @@
 
 import base64
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
-from functools import partial
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
-from asperity._core import InvalidInput, __version__
+from asperity._core import __version__
 from asperity.base.arguments import brief
 from asperity.base.codes import FATAL
 from asperity.base.diagnostics import must_be, must_have
 from asperity.base.table import imported
-from asperity.io.files import check_output, write_whole
+from asperity.io.files import check_output, refuse_overwrite, write_whole
 from asperity.report.comparison import compared, differing_inputs
 from asperity.report.contents import (
     Source,
@@ -65,10 +63,8 @@ def report_page(
     # their names are known once they are read; what is computed is read after the digests
     sources = [digests(load_scene(path, for_friction=True).sources) for path in paths]
     all_sources = [source for of_one in sources for source in of_one]
-    if output is not None and os.path.realpath(output) in {
-        os.path.realpath(one.path) for one in all_sources
-    }:
-        raise InvalidInput("is an input: choose another name for the output", where=output)
+    if output is not None:
+        refuse_overwrite([output], [one.path for one in all_sources])
     loaded = [load_scene(path, for_friction=True) for path in paths]
     results: list[list[SceneFriction]] = []
     for file in loaded:
@@ -86,12 +82,27 @@ def report_page(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja.StrictUndefined
     )
     date, drawn = _now(), Drawings(environment)
-    draw: list[Callable[[], Any]] = [partial(drawn.friction, scenes, curves)]
-    for name, file, of_file in zip(names, loaded, results, strict=True):
-        draw += [partial(drawn.surface, file, name), partial(drawn.rubber, file, name)]
-        draw.append(partial(drawn.design, file, of_file[0], name))
-    with bar("pictures")([slice(i, i + 1) for i in range(len(draw))]) as each:
-        overview, *pictures = [draw[one.start]() for one in each]
+    with bar("pictures")([slice(i, i + 1) for i in range(1 + len(loaded))]) as each:
+        steps = iter(each)
+        next(steps)
+        overview = drawn.friction(scenes, curves)
+        pages = [
+            {
+                "name": name,
+                "results": results_of(with_temperatures(file), of_file),
+                **drawn.of_file(file, of_file[0], name),
+                "sources": source_rows(of_one, folder),
+                "inputs": input_rows(file),
+                "text": text,
+                "link": _link(text, "application/toml"),
+            }
+            for name, file, of_file, of_one, text, _ in zip(
+                names, loaded, results, sources, texts, steps, strict=True
+            )
+        ]
+    variants = compared(
+        _variants(names, loaded), [scenes[i] for i in first], [curves[i] for i in first]
+    )
     page = environment.from_string(_shipped("page.html")).render(
         title=title or f"Friction of {', '.join(names)}",
         version=__version__,
@@ -101,36 +112,10 @@ def report_page(
         overview=overview,
         table_link=_link(table.csv(), "text/csv"),
         points=len(table.columns["mu"]),
-        files=[
-            {
-                "name": name,
-                "results": results_of(with_temperatures(file), of_file),
-                "surface": surface,
-                "rubber": rubber,
-                "design": design,
-                "sources": source_rows(of_one, folder),
-                "inputs": input_rows(file),
-                "text": text,
-                "link": _link(text, "application/toml"),
-            }
-            for name, file, of_file, of_one, text, surface, rubber, design in zip(
-                names,
-                loaded,
-                results,
-                sources,
-                texts,
-                *(pictures[k::3] for k in range(3)),
-                strict=True,
-            )
-        ],
+        files=pages,
         file_names=names,
         differing=[[key, *values] for key, values in differing_inputs(loaded)],
-        pairs=[
-            pair_texts(one)
-            for one in compared(
-                _variants(names, loaded), [scenes[i] for i in first], [curves[i] for i in first]
-            )
-        ],
+        pairs=[pair_texts(one) for one in variants],
         versions=versions(),
     )
     return page, all_sources

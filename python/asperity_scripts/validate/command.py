@@ -9,14 +9,14 @@ from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import MUST_BE, Argument, Note
-from asperity.cli.friction_commands import progress, refuse_overwrite
+from asperity.cli.friction_commands import progress
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stdout, tell_notes
 from asperity.draw.figure import check_plot
 from asperity.draw.style import drawn_in
 from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
-from asperity.io.files import check_directory, write_files
+from asperity.io.files import check_directory, refuse_overwrite, write_files
 from asperity.io.table import Table
 from asperity.scene.scan import read_filled
 from asperity.surface import HeightMap
