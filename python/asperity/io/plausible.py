@@ -40,8 +40,8 @@ from asperity.base.quantities import (
 )
 from asperity.io.typed import as_typed
 
-_notes: ContextVar[list[Note] | None] = ContextVar("notes", default=None)
-_refuses: ContextVar[bool] = ContextVar("refuses", default=True)  # what is absurd, if noted at all
+# where notes go, and whether what is absurd is refused instead
+_sink: ContextVar[tuple[list[Note], bool] | None] = ContextVar("sink", default=None)
 
 
 @contextmanager
@@ -53,14 +53,14 @@ def collected(inputs: Mapping[str, Any] | None = None) -> Iterator[list[Note]]:
     """
     notes: list[Note] = []
     typed = partial(as_typed, inputs=inputs or {})
-    token = _notes.set(notes)
+    token = _sink.set((notes, True))
     try:
         yield notes
     except (InvalidInput, OutOfRange, NotConverged) as error:
         more = [("; note: ", *note.where, *note.sentence) for note in notes]
         raise error.followed_by(*chain.from_iterable(more)).said(typed) from error
     finally:
-        _notes.reset(token)
+        _sink.reset(token)
         notes[:] = [note.said(typed) for note in notes]
 
 
@@ -74,14 +74,13 @@ def implausible(
     if not odd and _is_usual(pressure, PRESSURE_ON_RUBBER) and np.max(pressure) <= stiffest:
         return ()
     notes: list[Note] = []
-    tokens = _notes.set(notes), _refuses.set(False)
+    token = _sink.set((notes, False))
     try:
         for name in odd:
             check(name, *numbers[name])
         check_load("pressure", pressure, stiffest)
     finally:
-        _notes.reset(tokens[0])
-        _refuses.reset(tokens[1])
+        _sink.reset(token)
     if not notes:
         return ()
     first, *others = notes
@@ -142,11 +141,10 @@ def check(
         (highest, 1, (": unusual, above",), quantity.high),
     ):
         if limit is not None and _beyond(size[at], side, limit):
-            sentence = _sentence(name, float(numbers[at]), quantity, unit, words, limit)
+            code = "absurd-value" if MUST_BE in words else "unusual-value"
+            _tell(_sentence(name, float(numbers[at]), quantity, unit, words, limit), code, path)
             if MUST_BE in words:
-                _refuse(sentence, "absurd-value", path)
                 return
-            _note(sentence, "unusual-value", path)
 
 
 def check_scan(path: object, heights: NDArray[Any], spacing: ArrayLike, unit: str) -> None:
@@ -157,34 +155,24 @@ def check_scan(path: object, heights: NDArray[Any], spacing: ArrayLike, unit: st
     """
     check("pixel_size", spacing, SPACING, path=path)
     step = max(1, heights.size // 50_000)  # an order of magnitude is enough
-    with np.errstate(invalid="ignore"):  # a signalling NaN is a drop-out like others
+    with np.errstate(all="ignore"):  # a signalling NaN is a drop-out, 1e300 is not refused here
         sample = np.asarray(heights.ravel(order="K")[::step], dtype=np.float64)
-    sample = sample[np.isfinite(sample)]
+        sample = sample[np.isfinite(sample)]
+        rms = float(np.std(sample)) if sample.size else 0.0
     length = float(np.max(np.array(heights.shape) * np.asarray(spacing)))
-    if sample.size < 2 or not 0 < length < math.inf:
+    if not (0 < rms < math.inf and 0 < length < math.inf) or 5e-10 <= rms / length <= 0.5:
         return
-    with np.errstate(all="ignore"):  # heights of 1e300 are not refused here
-        rms = float(np.std(sample))
-    if not 0 < rms < math.inf:
-        return
-    if 5e-10 <= rms / length <= 0.5:
-        return
+    number = rms / LENGTH_UNITS[unit][0]
+    others = (one for one in LENGTH_UNITS.items() if one[0] != unit)
+    likely = [other for other, (si, _) in others if 3e-5 <= number * si / length <= 0.1]
+    guess = f"; heights in {likely[0]}? {number:.4g} {likely[0]} would do" if likely else ""
+    words: Sentence = (MUST_BE, "at most 10 times the length (no surface stands so high)")
+    code = "absurd-heights"
+    if rms / length <= 10:
+        where = "above half the length" if rms > length else "outside 5e-10 to 0.5 of the length"
+        words, code = (f": unusual, {where}",), "unusual-heights"
     shown = f": rms height {rms:.4g} m on a length of {length:.4g} m"
-    about = Argument("unit"), " = ", valued(unit), shown
-    factor = LENGTH_UNITS[unit][0]
-    number = rms / factor
-    guesses = [
-        other
-        for other, (scale, _) in LENGTH_UNITS.items()
-        if other != unit and 3e-5 <= number * scale / length <= 0.1
-    ]
-    guess = f"; heights in {guesses[0]}? {number:.4g} {guesses[0]} would do" if guesses else ""
-    if rms / length > 10:
-        allowed = "at most 10 times the length (no surface stands so high)"
-        _refuse((*about, MUST_BE, allowed, guess), "absurd-heights", path)
-        return
-    known = "above half the length" if rms > length else "outside 5e-10 to 0.5 of the length"
-    _note((*about, f": unusual, {known}{guess}"), "unusual-heights", path)
+    _tell((Argument("unit"), " = ", valued(unit), shown, *words, guess), code, path)
 
 
 def check_load(name: str, pressure: ArrayLike, stiffest: float, *, path: object = ()) -> None:
@@ -203,31 +191,29 @@ def check_load(name: str, pressure: ArrayLike, stiffest: float, *, path: object 
     times = f": {highest / stiffest:.3g} times the rubber's largest modulus ({stiffest:.4g} Pa)"
     guess = "; moduli in MPa?" if 1e5 <= stiffest * 1e6 <= 2e10 else ""
     about = Argument(name), " = ", phrase, times
+    words: Sentence = (", which squashes it",)
     if highest > 10 * stiffest:
-        allowed = "at most 10 times (it would be squashed)"
-        _refuse((*about, MUST_BE, allowed, guess), "absurd-pressure", path)
-        return
-    _note((*about, f", which squashes it{guess}"), "squashed-rubber", path)
+        words = MUST_BE, "at most 10 times (it would be squashed)"
+    code = "absurd-pressure" if MUST_BE in words else "squashed-rubber"
+    _tell((*about, *words, guess), code, path)
 
 
-def _refuse(sentence: Sentence, code: str, path: object) -> None:
-    if _notes.get() is not None and _refuses.get():
+def _tell(sentence: Sentence, code: str, path: object) -> None:
+    """Note it; what is absurd is refused where somebody collects."""
+    sink = _sink.get()
+    if sink is not None and sink[1] and code.startswith("absurd"):
         raise InvalidInput(*sentence, code=code, where=path)
-    _note(sentence, code, path)
-
-
-def _note(sentence: Sentence, code: str, path: object) -> None:
     _keep(Note(*sentence, code=code, where=path))
 
 
 def _keep(note: Note) -> None:
-    notes = _notes.get()
-    if notes is None:
+    sink = _sink.get()
+    if sink is None:
         import logging  # here: `import asperity` is to be quick
 
         logging.getLogger("asperity").warning("%s", note)
-    elif note not in notes:
-        notes.append(note)
+    elif note not in sink[0]:
+        sink[0].append(note)
 
 
 def _in_si(numbers: Array, quantity: Quantity, unit: str) -> Array:
