@@ -63,5 +63,4 @@ class AlternativesPart(Shows):
         self._problem.set_text(said)
 
     def refresh(self) -> None:
-        """Show the choices of another scene."""
         self._choice.set_options(self._names, value=self._chosen)

@@ -40,7 +40,6 @@ class CorrectionFields:
         return {kind: _NONE if kind == "none" else _title(kind) for kind in named}
 
     def offer(self, scene: Scene) -> None:
-        """Let the menu have what the scene's surface can give."""
         named = self._named(offered(scene))
         if named != self._menu.options:
             self._menu.set_options(named, value=self._kind)
@@ -82,7 +81,6 @@ class ConditionsPart(Shows):
         self.refresh()
 
     def refresh(self) -> None:
-        """Show the conditions of another scene."""
         self._inside.clear()
         with self._inside:
             set_pressure = self._set("conditions", "pressure_pa")

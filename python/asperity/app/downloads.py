@@ -74,7 +74,6 @@ def map_of(scene: Scene, tell: Tell = _silent) -> FrictionMap:
 
 
 def fmu_of(made: FrictionMap) -> bytes:
-    """The map as a Functional Mock-up Unit."""
     return archived(fmu_files(made))
 
 

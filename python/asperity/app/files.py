@@ -46,7 +46,6 @@ class Folder:
         return name
 
     def forget(self, name: str) -> None:
-        """Remove a file that is of no use."""
         (self.path / name).unlink(missing_ok=True)
         self.shown.pop(name, None)
 
@@ -72,7 +71,6 @@ class Folder:
 
 
 def remove_old_folders() -> None:
-    """Remove those of apps that were killed."""
     remove_left(Path(tempfile.gettempdir()), _PREFIX)
 
 

@@ -19,14 +19,10 @@ from asperity.app.worker import Worker
 
 
 class Refreshes(Protocol):
-    """A part of the page that shows what is edited."""
-
     def refresh(self) -> None: ...
 
 
 class OpenPart:
-    """A place to drop a scene with its files."""
-
     def __init__(self, state: State, worker: Worker, parts: Sequence[Refreshes]) -> None:
         self._state, self._worker, self._parts = state, worker, parts
         with ui.expansion("Open a scene").classes("w-full").props("dense"):
@@ -90,6 +86,5 @@ def show_page(session: str = "") -> None:
 
 
 def close_all() -> None:
-    """Remove the files of all sessions."""
     while _states:
         _states.popitem()[1].close()

@@ -59,7 +59,6 @@ def redraw_series(drawn: ui.echart, options: Options) -> None:
 
 
 def redraw(drawn: ui.echart, options: Options, name: str) -> None:
-    """Let a chart show something else, with words that say so."""
     drawn.options.clear()
     drawn.options.update(options)
     drawn.props(f'aria-label="{escape(name)}"')
@@ -77,7 +76,6 @@ class Picture:
         self.hide()
 
     def hide(self) -> None:
-        """Show nothing."""
         self._wanted: tuple[Callable[[Path], bytes], str] | None = None
         self._image.set_visibility(False)
 

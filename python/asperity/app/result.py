@@ -66,8 +66,6 @@ _NOTHING = "There are no notes: input, correction and theory are within their ra
 
 
 class ResultPart(Shows):
-    """Where everything that was computed is shown."""
-
     def __init__(self, state: State, worker: Worker, refreshed: Callable[[], None]) -> None:
         """`refreshed` is called where a button here has changed the conditions."""
         self._state, self._worker, self._refreshed = state, worker, refreshed
@@ -132,7 +130,6 @@ class ResultPart(Shows):
         self._busy(not found.whole)
 
     def wait(self, said: str) -> None:
-        """Say how far it is."""
         self._status.set_text(said)
 
     def fail(self, error: Error) -> None:
@@ -299,7 +296,6 @@ def _items(lines: Sequence[str]) -> str:
 
 
 def _table(scene: Scene, curves: SceneFriction) -> str:
-    """The numbers, as HTML."""
     names, rows = numbers_of([scene], [curves])
     head = "".join(f'<th scope="col">{name}</th>' for name in names)
     cells = ["".join(f"<td>{one}</td>" for one in row) for row in rows]

@@ -29,8 +29,6 @@ _NO_TEMPERATURE = "none: a master curve"
 
 
 class RubberPart(AlternativesPart):
-    """Where the rubber is chosen, its modulus and its shift factors."""
-
     table = "rubber"
 
     def _add_fields(self) -> None:
@@ -50,7 +48,6 @@ class RubberPart(AlternativesPart):
         self._say("")
 
     def _ask(self, files: list[str]) -> None:
-        """Menus with the guess, and a button that takes them."""
         guess = self._state.guesses[files[0]]
         chosen: dict[str, ui.select] = {}
         units: dict[str, ui.select] = {}

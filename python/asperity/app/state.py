@@ -41,8 +41,6 @@ LAW = {
 
 @dataclass(frozen=True)
 class Variant:
-    """A curve that was kept for comparison, with the scene that it came from."""
-
     name: str
     tables: Tables
     scene: Scene
@@ -100,7 +98,6 @@ class State:
 
     @property
     def text(self) -> str:
-        """The scene file."""
         return self.text_of(self.tables)
 
     def text_of(self, tables: Tables) -> str:
@@ -110,7 +107,6 @@ class State:
         return "".join(said) + text
 
     def use(self, table: str, wanted: bool) -> None:
-        """Let the scene have a table, or be without it."""
         (self.used.add if wanted else self.used.discard)(table)
         self.adhesion_left = self.adhesion_left and table != "adhesion"
 
@@ -193,7 +189,6 @@ class State:
 
     @property
     def _named(self) -> str:
-        """All that names files."""
         return repr([self.surfaces, self.rubbers, [one.tables for one in self.variants]])
 
     @property
@@ -249,7 +244,6 @@ class State:
         return loaded(self._path, self.tables if tables is None else tables, self._builders)
 
     def said(self, one: Said) -> Said:
-        """An error or a note in the words of the page."""
         return one.said(self.folder.as_shown).said(in_words)
 
     def keep_variant(self, name: str, tables: Tables, scene: Scene, curves: SceneFriction) -> None:

@@ -26,8 +26,6 @@ _ENDS = (
 
 
 class SurfacePart(AlternativesPart):
-    """Where the surface is chosen, its map and its spectrum."""
-
     table = "surface"
 
     def _add_fields(self) -> None:

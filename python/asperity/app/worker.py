@@ -38,8 +38,6 @@ class Shows:
 
 @dataclass(frozen=True)
 class Found:
-    """What is known of the present scene by now."""
-
     tables: Tables  # that the scene was made of
     scene: Scene
     cold: SceneFriction  # without heat
@@ -52,7 +50,6 @@ class Found:
 
     @property
     def whole(self) -> bool:
-        """Whether nothing is to follow."""
         return self.curves is not None and (self.banded is not None or not self.scene.has_errors)
 
 

@@ -75,7 +75,6 @@ def quoted(text: str) -> str:
 
 
 def number(value: Any, name: str) -> float:
-    """Return a real number as a float."""
     if type(value) is float:
         return value
     if isinstance(value, Real | Decimal):
@@ -92,12 +91,10 @@ def number(value: Any, name: str) -> float:
 
 
 def number_or_none(value: Any, name: str) -> float | None:
-    """Return a real number as a float, or None."""
     return None if value is None else number(value, name)
 
 
 def whole(value: Any, name: str, *, lowest: int = 0, highest: int = 2**62) -> int:
-    """Return a whole number of a range."""
     if isinstance(value, int | np.integer) and lowest <= value <= highest:
         return int(value)
     allowed = f"from {lowest} to {highest}" if highest != 2**62 else f"{lowest} or more"
@@ -105,7 +102,6 @@ def whole(value: Any, name: str, *, lowest: int = 0, highest: int = 2**62) -> in
 
 
 def flag(value: Any, name: str) -> bool:
-    """Return True or False."""
     if value is True or value is False:
         return value
     if isinstance(value, np.bool_):
@@ -163,7 +159,6 @@ def vector(value: Any, name: str) -> Array:
 
 
 def vector_or_none(value: Any, name: str) -> Array | None:
-    """Return a vector, or None."""
     return None if value is None else vector(value, name)
 
 
@@ -214,7 +209,6 @@ def notes_of(value: Any, name: str) -> tuple[Note, ...]:
 
 
 def path_of(value: Any, name: str) -> Path:
-    """Return where a file is."""
     if isinstance(value, str | os.PathLike):
         with suppress(TypeError):  # of a __fspath__ that gives bytes
             return FilePath(value)

@@ -24,7 +24,6 @@ class Phrase(str):
         return phrase
 
     def saying(self, text: str) -> Self:
-        """Return the same in other words."""
         return type(self)(text, self.numbers, self.tag)
 
 
@@ -118,7 +117,6 @@ class _Diagnostic:
         return self._made_of(self.sentence, (*_about(about), *self.where), self.after)
 
     def followed_by(self, *more: str) -> Self:
-        """Return the same with more to say."""
         return self._made_of(self.sentence, self.where, (*self.after, *more))
 
     def said(self, words: Words) -> Self:
@@ -267,14 +265,12 @@ class Note(_Diagnostic, str):
 
     @classmethod
     def of_line(cls, line: str) -> Self:
-        """Return the note of such a line."""
         front, _, next_step = line.partition("\t")
         label, _, text = front.partition(": ")
         return cls.of_label(label, text, next_step)
 
     @classmethod
     def of_label(cls, label: str, text: str, next_step: str = "") -> Self:
-        """Return the note of its label and text."""
         severity, code, argument = (*label.split(" ", 2), "", "")[:3]
         begin = f"{FATAL}: " * (severity == FATAL)
         note = cls(text.removeprefix(begin), code=code, severity=severity, next_step=next_step)

@@ -61,7 +61,6 @@ class Table(Value):
         return Columns(coordinates, variables, known)
 
     def _draw(self, axes: Any) -> None:
-        """Draw the object into matplotlib axes."""
         raise NotImplementedError
 
     def to_xarray(self) -> Any:

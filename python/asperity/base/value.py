@@ -64,7 +64,6 @@ class Value:
 
     @classmethod
     def _of_core(cls) -> tuple[str, ...]:
-        """Return the names of the fields that the core's object has too."""
         return tuple(name for name in cls.__match_args__ if name not in cls._beside)
 
     def _arguments(self) -> dict[str, Any]:

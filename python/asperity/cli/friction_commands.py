@@ -91,7 +91,6 @@ def progress(title: str) -> Progress:
 
 
 def area(args: Namespace) -> None:
-    """A/A0 of a scene at every pressure, velocity and wavenumber."""
     outputs = check_outputs(args)
     scene = load_scene(args.scene)
     refuse_overwrite(outputs, scene.sources)
@@ -169,7 +168,6 @@ def app(args: Namespace) -> None:
 
 
 def report(args: Namespace) -> None:
-    """Compute, draw and write a report."""
     paths = [FilePath(name) for name in args.scene]
     try:
         write_report(paths, FilePath(args.output), args.title, progress)
@@ -178,7 +176,6 @@ def report(args: Namespace) -> None:
 
 
 def design(args: Namespace) -> None:
-    """Print or write the table, a row a part of the inputs and a point, and its picture."""
     outputs = check_outputs(args)
     scene = load_scene(args.scene, for_friction=True)
     if scene.others:

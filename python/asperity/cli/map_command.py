@@ -130,7 +130,6 @@ def _errors(made: FrictionMap, scene: Scene, pressure: Array, velocity: Array) -
 
 
 def read_map(path: Path) -> FrictionMap:
-    """The map of a file, or one line that says why there is none."""
     with reading(path):
         return FrictionMap.load(path)
 
@@ -166,7 +165,6 @@ def _short(value: Any) -> str:
 
 
 def fmu(args: Namespace) -> None:
-    """Write the FMU of a map, and tell for which platforms it has binaries."""
     source, output = FilePath(args.map), FilePath(args.output)
     check_output(output)
     refuse_overwrite([output], [source])

@@ -77,8 +77,6 @@ class Parser(argparse.ArgumentParser):
 
 
 class Version(argparse.Action):
-    """Tells the version."""
-
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> NoReturn:
         print_stdout(f"{__version__}\n")
         parser.exit()
@@ -101,18 +99,15 @@ def _must_be(allowed: str) -> Callable[[Callable[[str], Value]], Callable[[str],
 
 @_must_be("numbers, parted by commas")
 def numbers(text: str) -> list[float]:
-    """Numbers, parted by commas."""
     return [Typed(entry) for entry in text.split(",")]
 
 
 def keys(text: str) -> list[str]:
-    """Keys, parted by commas."""
     return [entry.strip() for entry in text.split(",")]
 
 
 @_must_be("NAME=VALUE,NAME=VALUE, with each NAME once")
 def pairs(text: str) -> dict[str, str]:
-    """Names with their values."""
     parts = [entry.partition("=") for entry in text.split(",")]
     result = {name.strip(): value.strip() for name, _, value in parts}
     if not all(map(all, parts)) or len(result) < len(parts):
@@ -122,7 +117,6 @@ def pairs(text: str) -> dict[str, str]:
 
 @_must_be("KEY=VALUE,DEVIATION or KEY=VALUE,DEVIATION,ln")
 def prior(text: str) -> tuple[str, tuple[float | str, ...]]:
-    """A key with what is known of it before."""
     key, _, given = text.partition("=")
     value, deviation, *scale = given.split(",")
     if scale not in ([], ["ln"]):
@@ -132,7 +126,6 @@ def prior(text: str) -> tuple[str, tuple[float | str, ...]]:
 
 @_must_be("a positive number")
 def number(text: str) -> float:
-    """A positive number: all that the options ask for are."""
     number = Typed(text)
     if not 0 < number < math.inf:
         raise ValueError
@@ -141,20 +134,17 @@ def number(text: str) -> float:
 
 @_must_be("two positive numbers, LO,HI")
 def sides(text: str) -> tuple[float, float]:
-    """LO,HI."""
     lo, hi = map(number, text.split(","))
     return lo, hi
 
 
 @_must_be("a whole number")
 def whole(text: str) -> int:
-    """A whole number."""
     return TypedWhole(text)
 
 
 @_must_be(f"a whole number in 2..{MOST_POINTS}")
 def points(text: str) -> int:
-    """How many points a sweep has."""
     if not 2 <= (points := whole(text)) <= MOST_POINTS:
         raise ValueError
     return points
@@ -168,13 +158,11 @@ def share(text: str) -> float:
 
 @_must_be("a positive number [m], or two: DY,DX")
 def pixel_size(text: str) -> Any:
-    """One number [m], or DY,DX."""
     return _one_or_two(map(number, text.split(",")))
 
 
 @_must_be("a whole number, or two: NY,NX")
 def tile(text: str) -> Any:
-    """N, or NY,NX."""
     return _one_or_two(map(whole, text.split(",")))
 
 
@@ -221,7 +209,6 @@ def goes_with(args: argparse.Namespace, options: str, others: str) -> None:
 
 
 def exclusive(args: argparse.Namespace, options: str) -> None:
-    """Refuse two or more of some options."""
     found = given(args, options)
     if len(found) > 1:
         raise must_be("", "one of them", ", ".join(found))

@@ -24,7 +24,6 @@ def script(name: str) -> Run:
 
 
 def parser() -> kinds.Parser:
-    """The parser of the whole command line."""
     result = kinds.Parser(
         prog="asperity",
         description="Rubber contact area and friction on rough surfaces. Numbers that are absurd "

@@ -178,7 +178,6 @@ def named(axes: Axes, names: Sequence[str]) -> None:
 
 
 def bar(axes: Axes | Sequence[Axes], colours_of: ScalarMappable, **how: Any) -> Any:
-    """A colour bar beside axes."""
     figure: Any = (axes[0] if isinstance(axes, Sequence) else axes).get_figure()
     return figure.colorbar(colours_of, ax=axes, **how)
 
@@ -200,7 +199,6 @@ def tell_fatal_notes(figure: Figure) -> None:
 
 
 def pressure_text(value: float) -> str:
-    """A pressure [Pa] in a unit that suits it."""
     for factor, unit in ((1e6, "MPa"), (1e3, "kPa")):
         if value >= factor:
             return f"{value / factor:.4g} {unit}"

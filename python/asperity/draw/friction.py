@@ -80,7 +80,6 @@ def abscissa_of(results: Sequence[Any], *, temperatures: bool) -> str:
 
 
 def is_polar(result: Any) -> bool:
-    """Whether a picture of a result is drawn over directions."""
     return abscissa_of([result], temperatures=False) == DIRECTION
 
 
@@ -208,7 +207,6 @@ def draw_friction(
 
 
 def label_abscissa(axes: Axes, abscissa: str, *, celsius: bool) -> None:
-    """Scale and label what is drawn over."""
     if abscissa == TEMPERATURE:
         axes.set_xlabel(f"{abscissa} [{'°C' if celsius else 'K'}]")
     elif abscissa == DIRECTION:
@@ -218,7 +216,6 @@ def label_abscissa(axes: Axes, abscissa: str, *, celsius: bool) -> None:
 
 
 def draw_result(axes: Axes, result: Any, *, band: str = "") -> None:
-    """Draw one result as Python has it."""
     abscissa = abscissa_of([result], temperatures=False)
     curves = list(curves_of([result], [""], abscissa, [None], celsius=False))
     model = "model error (rms),\nfrom exact contacts"
@@ -227,7 +224,6 @@ def draw_result(axes: Axes, result: Any, *, band: str = "") -> None:
 
 
 def band_text(level: float) -> str:
-    """What a band is, for a legend."""
     return f"{100 * level:.4g} % band of the\nmeasured inputs' errors"
 
 

@@ -128,5 +128,4 @@ def grey(level: float) -> str:
 
 
 def paper() -> str:
-    """The colour of what is drawn on."""
     return _DARK["paper"] if _style.get() == "dark" else "white"

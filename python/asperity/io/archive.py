@@ -30,8 +30,6 @@ def archived(contents: Iterable[tuple[str, bytes]]) -> bytes:
 
 
 class Archive:
-    """An archive of stored and deflated members."""
-
     def __init__(self, file: BinaryIO) -> None:
         size = file.seek(0, os.SEEK_END)
         self._archive = zipfile.ZipFile(file)
@@ -39,7 +37,6 @@ class Archive:
         self.members = [one for one in self._archive.infolist() if not one.is_dir()]
 
     def open(self, member: zipfile.ZipInfo) -> "_Member":
-        """Open a member for reading."""
         if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
             raise must_be("", "stored or deflated", "is compressed in an unusual way")
         return _Member(self, self._archive.open(member))

@@ -45,15 +45,12 @@ class Columns:
     _source: Source
 
     def where(self, row: int) -> str:
-        """The line of a row in words."""
         return self._source.where(int(self._lines[row]))
 
     def span(self) -> str:
-        """The lines of the first and the last row in words."""
         return self._source.span(int(self._lines[0]), int(self._lines[-1]))
 
     def taken(self, rows: NDArray[Any]) -> "Columns":
-        """Some of the rows."""
         values = {name: column[rows] for name, column in self.values.items()}
         of_rows = self.block[rows], self.units, self._lines[rows]
         return Columns(self.path, values, *of_rows, self._source)
@@ -105,7 +102,6 @@ class _Reader:
             self.left.append(number)
 
     def places(self, cells: list[str]) -> dict[str, int] | None:
-        """Where a line that names the columns has them."""
         if not self.named or not all(name in cells for name in self.named.values()):
             return None
         return {

@@ -38,13 +38,11 @@ def young(modulus: str, poisson_ratio: float) -> float:
 
 
 def file_of(path: Any, name: str) -> Path | Frame:
-    """A path, or a table of another library."""
     frame = frame_of(path)
     return path_of(path, name) if frame is None else Frame(frame)
 
 
 def files_of(paths: Paths) -> list[Path | Frame]:
-    """One path or table, or several, at least one."""
     one: Any = paths
     if frame_of(one) is not None:
         return [file_of(one, "paths")]

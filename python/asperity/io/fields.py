@@ -143,7 +143,6 @@ def sweep(value: object) -> Any:
 
 
 def angles(value: object) -> Any:
-    """The same of degrees, in equal steps."""
     return _swept(value, "{from = 0, to = 360, points = 73}", _even)
 
 
@@ -233,12 +232,10 @@ def kelvin_or_celsius(
 
 
 def defaults_of(fields: Mapping[str, Field]) -> dict[str, Any]:
-    """What holds for the keys that are left out."""
     return {key: one.default for key, one in fields.items() if one.default is not None}
 
 
 def required(fields: Mapping[str, Field]) -> tuple[str, ...]:
-    """The keys that a table must have."""
     return tuple(key for key, one in fields.items() if one.required)
 
 
@@ -250,7 +247,6 @@ def refuse(path: Path, field: str, problem: str, phrase: Value | None = None) ->
 def require(
     path: Path, section: str, values: Mapping[str, object], keys: tuple[str, ...], hint: str = ""
 ) -> None:
-    """Refuse a table that lacks one of `keys`."""
     for key in keys:
         if key not in values:
             refuse(path, f"[{section}] {key}", "missing" + (hint and f"; {hint}"))
@@ -390,5 +386,4 @@ def rename_in_errors(
 
 
 def names_of(section: str, fields: Mapping[str, Field]) -> dict[str, str]:
-    """The `names` of one table, for `rename_in_errors`."""
     return {f.argument: f"[{section}] {key}" for key, f in fields.items() if f.argument}

@@ -87,7 +87,6 @@ def check_output(path: Path) -> None:
 
 
 def refuse_overwrite(outputs: Sequence[Path], inputs: Sequence[Path]) -> None:
-    """Refuse to write over what is read."""
     taken = {os.path.realpath(path) for path in inputs}
     for path in outputs:
         if os.path.realpath(path) in taken:

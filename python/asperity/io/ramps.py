@@ -35,7 +35,6 @@ def without_other_tests(table: Columns) -> Columns:
 
 
 def is_ramp(table: Columns) -> bool:
-    """Whether the temperature moves on without steps."""
     kelvin = np.sort(table.values["temperature"])
     groups = np.split(kelvin, np.flatnonzero(np.diff(kelvin) > STEP) + 1)
     drift = max(float(np.ptp(group)) for group in groups)

@@ -18,7 +18,8 @@ from asperity.io import plausible
 from asperity.io.column_names import cells_of, unit_in
 from asperity.io.columns import read_columns
 from asperity.io.files import check_file
-from asperity.io.source import read_source, text_lines
+from asperity.io.source import read_source
+from asperity.io.table import inputs_in
 from asperity.shift_factors import ShiftFactors
 
 Column = NDArray[np.float64]
@@ -89,21 +90,15 @@ def _relative(file: Path, shifts: ShiftFactors) -> ShiftFactors:
 
 def _written_by_rubber(file: Path) -> tuple[Column, Column] | None:
     """The isotherms' shifts in a file of `asperity rubber`, CSV or JSON; None of any other."""
-    marks = [f"# isotherms.{key} = " for key in ("temperature_k", "log10_a_t")]
-    rows: dict[str, list[float]] = {}
     with suppress(OSError, InvalidInput, ValueError, KeyError, TypeError, IndexError):
         check_file(file)  # one might wait for a pipe
-        for number, line in enumerate(text_lines(file)):
-            if number == 0 and line.startswith("{"):
+        with file.open("rb") as content:
+            if content.read(1) == b"{":
                 isotherms = json.loads(file.read_bytes())["inputs"][0]["isotherms"]
                 return np.array(isotherms["temperature_k"]), np.array(isotherms["log10_a_t"])
-            if not line.startswith("#"):
-                break
-            for mark in marks:
-                if line.startswith(mark):
-                    rows[mark] = json.loads(line[len(mark) :])
-        if len(rows) == len(marks):
-            return np.array(rows[marks[0]]), np.array(rows[marks[1]])
+        inputs = inputs_in(file)
+        temperature, shift = (inputs[f"isotherms.{key}"] for key in ("temperature_k", "log10_a_t"))
+        return np.array(json.loads(temperature)), np.array(json.loads(shift))
     return None
 
 

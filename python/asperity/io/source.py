@@ -38,12 +38,10 @@ class Source:
     sheets: tuple[tuple[int, str], ...] = ()  # of a workbook: numbers of their first lines, names
 
     def where(self, number: int) -> str:
-        """A line in words, as a reader of the file counts them."""
         first, name = next(((n, s) for n, s in reversed(self.sheets) if n <= number), (1, ""))
         return f"row {number - first + 1} of sheet {quoted(name)}" if name else f"line {number}"
 
     def span(self, first: int, last: int) -> str:
-        """Some lines in words."""
         if self.sheets:
             return f"{self.where(first)} to {self.where(last)}"
         return f"lines {first} to {last}"

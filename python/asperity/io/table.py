@@ -42,7 +42,6 @@ class Table:
     columns: Mapping[str, Any]
 
     def csv(self) -> str:
-        """Comment lines with inputs, notes and units, a header line, a row a point."""
         out = io.StringIO()
         out.write(f"# asperity {__version__} {self.command}\n")
         for inputs in self.inputs:
@@ -80,18 +79,22 @@ def noted(notes: Iterable[Note]) -> dict[str, list[str]]:
     return {"note_lines": [note.line for note in notes]}
 
 
-def notes_in(path: Path) -> tuple[Note, ...]:
-    """The notes that a CSV file of ours has among its inputs; others have none."""
-    start = "# note_lines = "
+def inputs_in(path: Path) -> dict[str, str]:
+    """The inputs at the head of a CSV file of ours, as JSON by their keys; others have none."""
     with path.open(encoding="utf-8-sig", errors="replace") as file:
         head = takewhile(lambda line: line.startswith("#"), file)
-        line = next((line for line in head if line.startswith(start)), f"{start}[]")
+        parts = [line.removeprefix("# ").partition(" = ") for line in head]
+    return {key: text for key, mark, text in parts if mark}
+
+
+def notes_in(path: Path) -> tuple[Note, ...]:
+    """The notes that a file has among its inputs."""
     try:
-        lines = json.loads(line.removeprefix(start))
+        lines = json.loads(inputs_in(path).get("note_lines", "[]"))
     except ValueError:
         lines = None
     if not isinstance(lines, list) or not all(isinstance(one, str) for one in lines):
-        raise must_be(start.strip("# ="), "a list of texts", where=path)
+        raise must_be("note_lines", "a list of texts", where=path)
     return tuple(map(Note.of_line, lines))
 
 
@@ -107,7 +110,6 @@ def json_text(value: Any, **options: Any) -> str:
 
 
 def unit(column: str) -> str:
-    """The unit that a column's name ends in."""
     return next((u for ending, u in UNITS.items() if column.endswith(ending)), "-")
 
 

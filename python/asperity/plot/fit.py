@@ -52,7 +52,6 @@ def fit_figure(fits: Sequence[Fitted], experiment: Experiment, path: Path) -> by
 
 
 def scene_fit_figure(fit: SceneFit, path: Path) -> bytes:
-    """Measured and predicted mu over the velocity, and one over the other."""
     figure, (first, second) = new_figure(2)
     nowhere = np.zeros_like(fit.mu)
     kelvin = nowhere if fit.temperature is None else fit.temperature

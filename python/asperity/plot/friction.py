@@ -105,7 +105,6 @@ def _draw_profiles(axes: Axes, scene: Scene) -> None:
 
 
 def _files(scenes: Sequence[Scene]) -> list[str]:
-    """The files of scenes, where there are several."""
     paths = {scene.path for scene in scenes}
     if len(paths) == 1:
         return [""] * len(scenes)

@@ -135,7 +135,6 @@ def _dress(axes: Axes, dataset: Any, x: str, panel: list[tuple[str, int]]) -> No
 
 
 def _tell_colours(figure: Figure, lines: Any, tints: Any, title: str) -> None:
-    """A legend of what the colours mean."""
     from matplotlib.lines import Line2D
 
     handles = [Line2D([], [], color=tint) for tint in tints]

@@ -52,7 +52,6 @@ class Pair:
 
     @property
     def summary(self) -> list[str]:
-        """Where they are compared, and a sentence for each verdict that occurs."""
         lines = [self.compared]
         for verdict, meaning in enumerate(VERDICTS):
             of_it = [one for one in self.differences if one.verdict == verdict]
@@ -68,7 +67,6 @@ class Pair:
 def compared(
     names: Sequence[str], scenes: Sequence[Scene], curves: Sequence[SceneFriction]
 ) -> list[Pair]:
-    """Every result against the first."""
     pairs = zip(names[1:], scenes[1:], curves[1:], strict=True)
     return [
         Pair(names[0], name, *_compared(scenes[0], curves[0], scene, curve))
@@ -79,7 +77,6 @@ def compared(
 def _compared(
     one: Scene, a: SceneFriction, other: Scene, b: SceneFriction
 ) -> tuple[str, Sequence[Difference]]:
-    """Where two scenes are compared, and how they differ there."""
     try:
         where = _points(one, other)
         if isinstance(where, str):
@@ -92,8 +89,6 @@ def _compared(
 
 
 class Points(NamedTuple):
-    """Every pressure with every velocity."""
-
     pressure: Array  # [Pa], shape (n,)
     velocity: Array  # [m/s], shape (m,)
 

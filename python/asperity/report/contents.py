@@ -22,8 +22,6 @@ from asperity.scene.results import notes_of_all, scene_inputs, table_of
 
 
 class Source(NamedTuple):
-    """A file, and what tells it from any other."""
-
     path: Path
     size: int  # bytes
     sha256: str
@@ -68,8 +66,6 @@ class Fact(NamedTuple):
 
 @dataclass(frozen=True)
 class Result:
-    """One scene at one temperature, in all of its directions."""
-
     heading: str  # empty where a file has one temperature
     of: str
     facts: Sequence[Fact]
@@ -91,7 +87,6 @@ def results_of(scenes: Sequence[Scene], results: Sequence[SceneFriction]) -> lis
 
 
 def _result(scenes: Sequence[Scene], results: Sequence[SceneFriction], *, several: bool) -> Result:
-    """The texts of one temperature; `several` temperatures are told apart."""
     most = max(range(len(scenes)), key=lambda i: float(results[i].mu.max()))
     scene, result = scenes[most], results[most]
     at = f"{scene.temperature:.5g} K" if several else ""
@@ -175,7 +170,6 @@ def source_rows(sources: Sequence[Source], folder: Path | None) -> list[tuple[st
 
 
 def pair_texts(pair: Pair) -> dict[str, Any]:
-    """A comparison, its points as cells."""
     numbers = ("pressure", "velocity", "first", "second")
     rows = [
         (*(number_text(getattr(one, name)) for name in numbers), one.percent, VERDICTS[one.verdict])

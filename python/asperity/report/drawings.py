@@ -54,11 +54,9 @@ class Drawings:
         self._drawn = 0
 
     def plain(self, text: str) -> Any:
-        """Text of our own that the page takes as it is."""
         return self._markup(text)
 
     def friction(self, scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Figure:
-        """mu of every scene."""
         spans = [f"from {c.mu.min():.3g} to {c.mu.max():.3g}" for c in curves]
         names = [
             f"{printable(Path(scene.path.name))}: mu {span}"

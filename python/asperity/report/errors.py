@@ -17,8 +17,6 @@ _PARTS = {
 
 
 class Told(NamedTuple):
-    """One source of error."""
-
     name: str
     size: str
     meaning: str

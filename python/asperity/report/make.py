@@ -133,7 +133,6 @@ def _first(scenes: Sequence[Scene]) -> list[int]:
 
 
 def _variants(names: Sequence[str], loaded: Sequence[Scene]) -> list[str]:
-    """A name for each file and temperature."""
     return [
         f"{name} at {scenes[i].temperature:.5g} K" if len(kept) > 1 else name
         for name, file in zip(names, loaded, strict=True)
