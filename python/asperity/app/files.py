@@ -6,8 +6,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import File, Sentence, Value
+from asperity.base.diagnostics import File, InvalidInput, Sentence, Value
 from asperity.io.aside import locked_folder, remove_left
 
 MOST_BYTES = 256 * 2**20  # of one file

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from asperity._core import InvalidInput
 from asperity.app.files import Folder
-from asperity.base.diagnostics import must_have
+from asperity.base.diagnostics import InvalidInput, must_have
 from asperity.io.column_names import cells_of, find_header, unit_in
 from asperity.io.columns import read_columns
 from asperity.io.read_dma import read_isotherms

@@ -6,9 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from asperity._core import InvalidInput
 from asperity.app.opened import Tables
-from asperity.base.diagnostics import Argument
+from asperity.base.diagnostics import Argument, InvalidInput
 from asperity.base.parameters import parameters
 from asperity.scene.model import Scene
 from asperity.scene.parts import KINDS

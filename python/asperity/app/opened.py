@@ -5,9 +5,8 @@ from collections.abc import Sequence
 from pathlib import PurePosixPath
 from typing import Any
 
-from asperity._core import InvalidInput
 from asperity.app.files import MOST_FILES, Folder, plain
-from asperity.base.diagnostics import must_be, must_have
+from asperity.base.diagnostics import InvalidInput, must_be, must_have
 from asperity.io.archive import Archive
 from asperity.io.toml import read_toml_text
 from asperity.scene.keys import with_files

@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 from nicegui import background_tasks, ui
 
-from asperity._core import Error
 from asperity.app import downloads
 from asperity.app.charts import Options, contributions_chart, friction_chart
 from asperity.app.parts import Picture, chart, part, redraw, redraw_series
 from asperity.app.state import State
 from asperity.app.words import allowed_velocities, in_one_line
 from asperity.app.worker import Found, Shows, Worker, contributions, in_thread
-from asperity.base.diagnostics import Note, html_items
+from asperity.base.diagnostics import Error, Note, html_items
 from asperity.plot.design import design_figure
 from asperity.report.contents import numbers_of
 from asperity.report.errors import errors_of, solved_contacts

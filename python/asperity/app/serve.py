@@ -12,8 +12,7 @@ from collections.abc import Callable
 from threading import Timer
 from typing import Any
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Argument, valued
+from asperity.base.diagnostics import MUST_BE, Argument, InvalidInput, valued
 from asperity.base.table import to_install
 
 _OPEN_AFTER = 1.5  # s, by which the server answers on most machines; a browser waits anyway

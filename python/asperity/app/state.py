@@ -9,13 +9,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from asperity._core import Error, InvalidInput
 from asperity.app.files import Folder
 from asperity.app.guess import Guess, guess_columns, rubber_of
 from asperity.app.loaded import OPTIONAL, editable, knows_temperature, loaded, usable, usual
 from asperity.app.opened import Dropped, Tables, opened
 from asperity.app.words import in_words
-from asperity.base.diagnostics import Note
+from asperity.base.diagnostics import Error, InvalidInput, Note
 from asperity.base.quantities import ZERO_CELSIUS
 from asperity.demo import hot_scene_text, input_files
 from asperity.io import plausible

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, File, Note, must_be, refusal
+from asperity.base.diagnostics import Argument, File, InvalidInput, Note, must_be, refusal
 from asperity.base.diagnostics import brief as brief
 
 Array = NDArray[np.float64]

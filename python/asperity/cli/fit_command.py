@@ -8,10 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import Argument, Note, must_be, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, Note, must_be, refusal
 from asperity.cli.friction_commands import check_outputs, progress, write_outputs
 from asperity.cli.options import exclusive, goes_with, typed_options
 from asperity.cli.streams import print_stderr

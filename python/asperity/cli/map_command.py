@@ -8,11 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion
 from asperity.base import quantities
 from asperity.base.arguments import Array, FilePath, reading
-from asperity.base.diagnostics import Argument, Note, must_be
+from asperity.base.diagnostics import Argument, InvalidInput, Note, must_be
 from asperity.base.parameters import parameters
 from asperity.cli.friction_commands import check_outputs, progress
 from asperity.cli.options import flags, given, typed_options

@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any, NoReturn, TypeVar
 
-from asperity._core import InvalidInput, __version__
+from asperity._core import __version__
 from asperity.base.arguments import brief
-from asperity.base.diagnostics import Argument, must_be
+from asperity.base.diagnostics import Argument, InvalidInput, must_be
 from asperity.cli.streams import print_stderr, print_stdout, printable
 from asperity.draw.style import STYLES
 from asperity.io.fields import MOST_POINTS

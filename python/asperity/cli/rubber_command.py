@@ -6,10 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import Note, fatal_first, refusal
+from asperity.base.diagnostics import InvalidInput, NotConverged, Note, fatal_first, refusal
 from asperity.cli.friction_commands import check_outputs, write_outputs
 from asperity.cli.options import flags, typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve

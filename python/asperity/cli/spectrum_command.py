@@ -10,10 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput, NotConverged
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import MUST_BE, Argument, Note, valued
+from asperity.base.diagnostics import MUST_BE, Argument, InvalidInput, NotConverged, Note, valued
 from asperity.base.iso_25178 import height_parameters
 from asperity.cli.friction_commands import check_outputs, write_outputs
 from asperity.cli.options import flags, goes_with, typed_options

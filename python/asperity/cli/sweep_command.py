@@ -9,10 +9,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
 from asperity.base.codes import FATAL
-from asperity.base.diagnostics import Argument, Note, must_be
+from asperity.base.diagnostics import Argument, Error, InvalidInput, Note, must_be
 from asperity.base.table import imported
 from asperity.cli.friction_commands import shows_bars
 from asperity.cli.options import exclusive, given, goes_with

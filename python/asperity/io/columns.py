@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import MUST_BE, Note
+from asperity.base.diagnostics import MUST_BE, InvalidInput, Note
 from asperity.io import plausible
 from asperity.io.column_names import cells_of, find_header, is_wordy, separator_of, unit_in
 from asperity.io.instrument import brief

@@ -14,8 +14,7 @@ from zipfile import ZipFile, is_zipfile
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, must_be, must_have, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, must_be, must_have, refusal
 from asperity.base.quantities import LENGTH_UNITS, SPACING
 from asperity.base.table import to_install
 from asperity.io.archive import Archive

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, must_be
+from asperity.base.diagnostics import Argument, InvalidInput, must_be
 from asperity.io.instrument import (
     METRES,
     PixelSize,

@@ -6,9 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import path_of, reading
-from asperity.base.diagnostics import must_be
+from asperity.base.diagnostics import InvalidInput, must_be
 from asperity.base.table import imported
 from asperity.io import plausible
 from asperity.io.files import check_file

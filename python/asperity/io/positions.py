@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array
-from asperity.base.diagnostics import MUST_BE, Argument, must_be, refusal
+from asperity.base.diagnostics import MUST_BE, Argument, InvalidInput, must_be, refusal
 from asperity.io.instrument import METRES, PixelSize, check_equal_distances, left_out, surface_of
 from asperity.surface import Scan
 

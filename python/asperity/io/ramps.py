@@ -3,9 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array
-from asperity.base.diagnostics import Note
+from asperity.base.diagnostics import InvalidInput, Note
 from asperity.io import plausible
 from asperity.io.columns import Columns
 from asperity.sweeps import Isotherm

@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import Array, choice, path_of, real_array
-from asperity.base.diagnostics import MUST_BE, must_be
+from asperity.base.diagnostics import MUST_BE, InvalidInput, must_be
 from asperity.io import plausible
 from asperity.io.column_names import cells_of
 from asperity.io.columns import read_columns

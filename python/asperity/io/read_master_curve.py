@@ -6,9 +6,8 @@ from typing import Any, Literal
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array
-from asperity.base.diagnostics import Argument, Note
+from asperity.base.diagnostics import Argument, InvalidInput, Note
 from asperity.io import plausible
 from asperity.io.columns import Columns, Names
 from asperity.io.declared import file_of, read_declared, young

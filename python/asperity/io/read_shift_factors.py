@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput, OutOfRange
 from asperity.base import quantities
 from asperity.base.arguments import path_of
-from asperity.base.diagnostics import Note
+from asperity.base.diagnostics import InvalidInput, Note, OutOfRange
 from asperity.base.quantities import ZERO_CELSIUS
 from asperity.io import plausible
 from asperity.io.column_names import cells_of, unit_in

@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import path_of, reading
-from asperity.base.diagnostics import Argument, must_be, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, must_be, refusal
 from asperity.io import plausible
 from asperity.io.archive import Archive, read_array
 from asperity.io.files import check_file

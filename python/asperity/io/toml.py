@@ -5,8 +5,7 @@ import tomllib
 from collections.abc import Callable
 from typing import Any
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import must_have
+from asperity.base.diagnostics import InvalidInput, must_have
 
 _MOST_BYTES = 2**24
 _MOST_PARTS = 32

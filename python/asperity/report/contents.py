@@ -9,8 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from asperity._core import InvalidInput, __version__
-from asperity.base.diagnostics import html_items
+from asperity._core import __version__
+from asperity.base.diagnostics import InvalidInput, html_items
 from asperity.draw.figure import pressure_text
 from asperity.io.files import sha256
 from asperity.io.table import input_lines
