@@ -18,7 +18,7 @@ from asperity.io.files import refuse_overwrite, write_files
 from asperity.io.prony_input import prony_input
 from asperity.io.read_dma import read_isotherms
 from asperity.io.read_shift_factors import read_shift_factors
-from asperity.io.table import Table, noted
+from asperity.io.table import Table
 from asperity.plot import rubber as plot_rubber
 from asperity.prony_fit import PronyFit
 from asperity.scene.celsius import all_in_celsius
@@ -80,7 +80,7 @@ def rubber(args: Namespace) -> None:
     }
     celsius = (args.units or {}).get("temperature") == "C"
     notes = [note.said(all_in_celsius) for note in notes] if celsius else notes
-    inputs |= noted(notes)  # for a scene that reads the curve
+    inputs["note_lines"] = [note.line for note in notes]  # for a scene that reads the curve
     table = Table("rubber", [inputs], notes, columns)
     beside: dict[Path, str] = {}
     if args.write_shift is not None:

@@ -9,11 +9,16 @@ import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath
 
+fcntl: Any = None
+with suppress(ModuleNotFoundError):  # Windows
+    fcntl = import_module("fcntl")
 _YOUNG = 60  # s in which a folder that is not locked may be one that is about to be
 _CONTENT = {"store", "store.nc"}  # of a folder beside an output
 _BESIDE = ".asperity-"
@@ -22,9 +27,7 @@ _BESIDE = ".asperity-"
 def locked_folder(prefix: str, parent: Path | None = None) -> tuple[Path, int]:
     """A new private folder, and the open handle that locks it (-1 where there are no locks)."""
     folder = Path(tempfile.mkdtemp(prefix=prefix, dir=parent))
-    try:
-        import fcntl
-    except ModuleNotFoundError:  # Windows
+    if fcntl is None:
         return folder, -1
     handle = os.open(folder, os.O_RDONLY)
     with suppress(OSError):  # a file system without locks
@@ -50,9 +53,7 @@ def folder_beside(path: Path) -> Iterator[Path]:
 
 def remove_left(parent: Path, prefix: str, content: set[str] | None = None) -> None:
     """Remove the folders of processes that were killed; `content` is all that they may hold."""
-    try:
-        import fcntl
-    except ModuleNotFoundError:
+    if fcntl is None:
         return
     for folder in parent.glob(f"{prefix}????????"):
         with suppress(OSError):  # of somebody else, or gone meanwhile

@@ -1,6 +1,5 @@
 """Fields of a scene file: their types, and messages that name file, table and key."""
 
-import datetime
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -16,7 +15,8 @@ from asperity.base.diagnostics import Advice, Argument, Must, Sentence, Value, W
 from asperity.base.parameters import KEY_UNITS, Parameter, parameters
 from asperity.base.quantities import TEMPERATURE, Quantity
 from asperity.io import plausible
-from asperity.io.typed import Typed, as_typed
+from asperity.io.toml import toml_value
+from asperity.io.typed import as_typed
 
 MOST_POINTS = 100_000  # of a sweep
 MOST_ROWS = 1_000_000  # of a table
@@ -301,19 +301,7 @@ def read_table(
 
 
 def _shown(value: object) -> str:
-    """A value as TOML writes it, cut where it is long."""
-    if isinstance(value, bool):
-        text = str(value).lower()
-    elif isinstance(value, dict):
-        text = "{" + ", ".join(f"{key} = {_shown(entry)}" for key, entry in value.items()) + "}"
-    elif isinstance(value, list):
-        text = "[" + ", ".join(map(_shown, value[:20])) + (", ..." * (len(value) > 20)) + "]"
-    elif isinstance(value, int) and value.bit_length() > 1000:
-        text = hex(value)  # Python writes no integer of so many decimals
-    elif isinstance(value, datetime.date | datetime.time):
-        text = value.isoformat()
-    else:
-        text = str(value) if isinstance(value, Typed) else repr(value)
+    text = toml_value(value)
     return text if len(text) <= 80 else text[:77] + "..."
 
 

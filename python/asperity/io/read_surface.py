@@ -3,7 +3,6 @@
 import os
 import re
 from array import array
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -207,10 +206,16 @@ def _load_text(path: Path, begin: int = 1) -> NDArray[Any]:
     values = array("d")
     width = blank = gap = 0  # numbers of cells, of the first blank line, of one between numbers
     trailing = True
-    for number, cells in lines(path, begin):
-        if not cells:
+    separator: str | None = ""
+    for number, line in enumerate(text_lines(path), start=1):
+        if number < begin or line.lstrip().startswith("#"):
+            continue
+        if not line.strip(" " if separator == "\t" else None):
             blank = blank or (number if values else 0)
             continue
+        if separator == "":
+            separator = _separator(line)
+        cells = _split(line, separator)
         try:
             row = [cell(text) for text in cells]
         except ValueError as error:
@@ -232,20 +237,6 @@ def _load_text(path: Path, begin: int = 1) -> NDArray[Any]:
     if matrix.shape[1] == 1 and gap:
         raise InvalidInput(f"line {gap} is blank: a drop-out of a line scan must be nan")
     return matrix.reshape(-1) if 1 in matrix.shape else matrix
-
-
-def lines(path: Path, begin: int = 1) -> Iterator[tuple[int, list[str]]]:
-    """Numbers and cells of the lines that are no comments; a blank line has no cells."""
-    separator: str | None = ""
-    for number, text in enumerate(text_lines(path), start=1):
-        if number < begin or text.lstrip().startswith("#"):
-            continue
-        if not text.strip(" " if separator == "\t" else None):
-            yield number, []
-            continue
-        if separator == "":
-            separator = _separator(text)
-        yield number, _split(text, separator)
 
 
 def _split(text: str, separator: str | None) -> list[str]:

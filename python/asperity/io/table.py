@@ -74,11 +74,6 @@ class Table:
         return json_text(content, indent=1, allow_nan=False) + "\n"
 
 
-def noted(notes: Iterable[Note]) -> dict[str, list[str]]:
-    """Notes as an input of a table, for `notes_in` of its file."""
-    return {"note_lines": [note.line for note in notes]}
-
-
 def inputs_in(path: Path) -> dict[str, str]:
     """The inputs at the head of a CSV file of ours, as JSON by their keys; others have none."""
     with path.open(encoding="utf-8-sig", errors="replace") as file:

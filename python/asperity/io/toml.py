@@ -1,11 +1,15 @@
 """TOML text, of which the parser takes time and memory as the square of the parts of a key."""
 
+import datetime
 import re
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
+import numpy as np
+
 from asperity.base.diagnostics import InvalidInput, must_have
+from asperity.io.table import json_text
 
 _MOST_BYTES = 2**24
 _MOST_PARTS = 32
@@ -48,6 +52,30 @@ def read_toml_text(content: bytes, parse_float: Callable[[str], Any] = float) ->
         raise InvalidInput(f"not a TOML file: {problem}") from None
     problem = f"must have at most {_MOST_PARTS} parts"
     raise InvalidInput(f"not a TOML file: a key at line {line}: {problem}")
+
+
+def toml_value(value: Any) -> str:
+    """A value as TOML writes it: a number as it was typed, or in the digits that read back."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, int) and value.bit_length() > 1000:
+        return hex(value)  # Python writes no integer of so many decimals
+    if isinstance(value, int | float):  # inf and nan are TOML's words too
+        return str(value)
+    if isinstance(value, datetime.date | datetime.time):
+        return value.isoformat()
+    if isinstance(value, str):
+        return json_text(value)
+    if isinstance(value, Mapping):
+        inside = [f"{_key(key)} = {toml_value(one)}" for key, one in value.items()]
+        return f"{{{', '.join(inside)}}}"
+    return f"[{', '.join(map(toml_value, value))}]"
+
+
+def _key(key: str) -> str:
+    return key if re.fullmatch("[A-Za-z0-9_-]+", key) else json_text(key)
 
 
 def _slip(text: str) -> str:

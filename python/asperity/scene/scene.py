@@ -1,14 +1,11 @@
 """A scene: a TOML file that names the parts of a computation, read into objects of the core."""
 
-import json
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from glob import glob
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from asperity.adhesion import Adhesion
 from asperity.base.arguments import path_of, reading
@@ -26,7 +23,7 @@ from asperity.io.fields import (
     require,
 )
 from asperity.io.files import check_file
-from asperity.io.toml import read_toml_text
+from asperity.io.toml import read_toml_text, toml_value
 from asperity.io.typed import Typed, typed_in
 from asperity.scene.celsius import celsius_in_errors
 from asperity.scene.keys import (
@@ -274,19 +271,4 @@ def scene_text(tables: Mapping[str, Mapping[str, Any]]) -> str:
 
 
 def _lines(table: Mapping[str, Any]) -> str:
-    return "".join(f"{key} = {_value(value)}\n" for key, value in table.items())
-
-
-def _value(value: Any) -> str:
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, int | float):
-        return repr(value)  # inf and nan are TOML's words too
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, Mapping):
-        inside = ", ".join(f"{json.dumps(key)} = {_value(one)}" for key, one in value.items())
-        return f"{{ {inside} }}" if inside else "{}"
-    return f"[{', '.join(_value(one) for one in value)}]"
+    return "".join(f"{key} = {toml_value(value)}\n" for key, value in table.items())

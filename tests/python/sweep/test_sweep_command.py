@@ -106,7 +106,7 @@ BAD = {
     "surface.x = [0.7]": "surface.x: is no key of a scene, allowed are surface.file, surface.",
     "surface.hurst = []": "surface.hurst: is empty",
     "surface.hurst = 0.7": "surface.hurst = 0.7: must be a list",
-    'surface.hurst = ["x"]': "hurst = 'x': must be a number",
+    'surface.hurst = ["x"]': 'hurst = "x": must be a number',
     "surface.rms_height_m = [1e-4, 100.0]": "must be at most 1 m",
     'correction.kind = ["s-faktor"]': "did you mean s-factor?",
     "conditions.pressure_pa = [-1e5]": "must be positive and finite",
