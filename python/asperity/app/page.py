@@ -4,7 +4,6 @@ import secrets
 from collections import OrderedDict
 from collections.abc import Sequence
 from importlib.resources import files
-from typing import Protocol
 
 from nicegui import ui
 
@@ -15,15 +14,11 @@ from asperity.app.rubber import RubberPart
 from asperity.app.state import State
 from asperity.app.surface import SurfacePart
 from asperity.app.upload import Upload
-from asperity.app.worker import Worker
-
-
-class Refreshes(Protocol):
-    def refresh(self) -> None: ...
+from asperity.app.worker import Shows, Worker
 
 
 class OpenPart:
-    def __init__(self, state: State, worker: Worker, parts: Sequence[Refreshes]) -> None:
+    def __init__(self, state: State, worker: Worker, parts: Sequence[Shows]) -> None:
         self._state, self._worker, self._parts = state, worker, parts
         with ui.expansion("Open a scene").classes("w-full").props("dense"):
             Upload(

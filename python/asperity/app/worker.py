@@ -23,6 +23,9 @@ _QUIET = 0.05  # s without a change, after which all that is slower follows
 class Shows:
     """A part of the page that shows what was computed, or some of it."""
 
+    def refresh(self) -> None:
+        """Show the choices of another scene."""
+
     def show_curve(self, result: "Found") -> None:
         """The curve alone, at once."""
 

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from asperity.base import quantities
+from asperity.adhesion import Adhesion
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import Argument, InvalidInput, Note, must_be, refusal
+from asperity.base.parameters import parameters
 from asperity.cli.friction_commands import check_outputs, progress, write_outputs
 from asperity.cli.options import exclusive, goes_with, typed_options
 from asperity.cli.streams import print_stderr
@@ -22,7 +23,6 @@ from asperity.io.table import Table
 from asperity.plot import fit as plot_fit
 from asperity.plot.fit import scene_fit_figure
 from asperity.scene.experiment import (
-    PARAMETERS,
     Experiment,
     Fitted,
     found,
@@ -91,10 +91,6 @@ def _cells(column: Any) -> list[Any]:
 _APART = 0.2  # of ln pressure
 _WARMER = 2.0  # [K] between points of one temperature
 _COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area")
-_HELD = {
-    "shear_stress_pa": quantities.SHEAR_STRESS,
-    "reference_velocity_m_s": quantities.VELOCITY,
-}
 
 
 def fit(args: Namespace) -> None:
@@ -149,16 +145,17 @@ def _fit_adhesion(args: Namespace) -> None:
 
 
 def _held(given: Mapping[str, str]) -> dict[str, float]:
+    known = {one.key: one.quantity for one in parameters(Adhesion)}
     held = {}
     for key, text in given.items():
-        if key not in PARAMETERS:
-            raise InvalidInput(Argument(f"--hold {key}"), f": {nearest(key, PARAMETERS)}")
+        if key not in known:
+            raise InvalidInput(Argument(f"--hold {key}"), f": {nearest(key, known)}")
         try:
             held[key] = float(text)
         except ValueError:
             raise refusal(f"--hold {key}", text, "a number") from None
-        if key in _HELD:
-            plausible.check(f"--hold {key}", held[key], _HELD[key])
+        if (quantity := known[key]) is not None:
+            plausible.check(f"--hold {key}", held[key], quantity)
     return held
 
 

@@ -1,6 +1,6 @@
 """Styles of pictures: the width of a page or of one column on paper, and dark screens."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
@@ -24,9 +24,15 @@ STYLES = ("print", "single", "dark")
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 # the same where black was white, bright ones first
 _ON_DARK = ("#56B4E9", "#E69F00", "#2FC7A0", "#E29BC4", "#F0E442", "#E8703A", "#FFFFFF")
-_DARK = {"paper": "#16191d", "ink": "#e6e6e6"}
+_PAPER, _INK = "#16191d", "#e6e6e6"  # of dark screens
 _DARK_PAPER = 0.1  # the same as a grey
-_NARROW = {"font.size": 8, "axes.linewidth": 0.6, "lines.markersize": 4}
+_PAPERS = ("figure.facecolor", "axes.facecolor", "savefig.facecolor", "legend.facecolor")
+_INKS = ("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color")
+_SETTINGS: Mapping[str, Any] = {  # of matplotlib
+    "print": {},
+    "single": {"font.size": 8, "axes.linewidth": 0.6, "lines.markersize": 4},
+    "dark": dict.fromkeys(_PAPERS, _PAPER) | dict.fromkeys(_INKS, _INK),
+}
 _style: ContextVar[str] = ContextVar("style", default="print")
 _fatal: ContextVar[Sequence[Note]] = ContextVar("fatal", default=())
 
@@ -35,39 +41,22 @@ _fatal: ContextVar[Sequence[Note]] = ContextVar("fatal", default=())
 def drawn_in(style: str | None, notes: Sequence[Note] = ()) -> Iterator[None]:
     """Let the pictures that are drawn meanwhile have a style, and below them the fatal ones of the
     notes: a picture goes on its way without the terminal that told them."""
-    token = _fatal.set([note for note in fatal_first(notes) if note.severity == FATAL])
+    from matplotlib import rc_context
+
+    style = style or _style.get()
+    fatal = [note for note in fatal_first(notes) if note.severity == FATAL]
+    tokens = _style.set(style), _fatal.set(fatal)
     try:
-        with _in_style(style):
+        with rc_context(_SETTINGS[style]):
             yield
     finally:
-        _fatal.reset(token)
+        _style.reset(tokens[0])
+        _fatal.reset(tokens[1])
 
 
 def fatal_notes() -> Sequence[Note]:
     """Those of the picture that is being drawn."""
     return _fatal.get()
-
-
-@contextmanager
-def _in_style(style: str | None) -> Iterator[None]:
-    if style is None:
-        yield
-        return
-    from matplotlib import rc_context
-
-    token = _style.set(style)
-    paper, ink = _DARK["paper"], _DARK["ink"]
-    dark = dict.fromkeys(
-        ("figure.facecolor", "axes.facecolor", "savefig.facecolor", "legend.facecolor"), paper
-    ) | dict.fromkeys(
-        ("text.color", "axes.edgecolor", "axes.labelcolor", "xtick.color", "ytick.color"), ink
-    )
-    settings: dict[str, dict[str, Any]] = {"dark": dark, "single": _NARROW}
-    try:
-        with rc_context(settings.get(style, {})):  # type: ignore[arg-type]
-            yield
-    finally:
-        _style.reset(token)
 
 
 def narrow() -> bool:
@@ -128,4 +117,4 @@ def grey(level: float) -> str:
 
 
 def paper() -> str:
-    return _DARK["paper"] if _style.get() == "dark" else "white"
+    return _PAPER if _style.get() == "dark" else "white"

@@ -143,13 +143,13 @@ def sweep(value: object) -> Any:
 
 
 def angles(value: object) -> Any:
-    return _swept(value, "{from = 0, to = 360, points = 73}", _even)
+    return _swept(value, "{from = 0, to = 360, points = 73}", np.linspace)
 
 
-def _swept(value: object, example: str, spread: Callable[[Any, str], Any]) -> Any:
+def _swept(value: object, example: str, spread: Callable[[float, float, int], Any]) -> Any:
     allowed = f"a number, a list, or {example}"
     if isinstance(value, dict):
-        return spread(value, example)
+        return spread(*_ends(value, example))
     if isinstance(value, list):
         if not value:
             raise _WrongValueError(_MUST, f"{allowed}, and not empty")
@@ -160,15 +160,10 @@ def _swept(value: object, example: str, spread: Callable[[Any, str], Any]) -> An
         raise _WrongValueError(_MUST, allowed) from None
 
 
-def _logarithmic(value: Mapping[str, object], example: str) -> Any:
-    low, high, points = _ends(value, example)
+def _logarithmic(low: float, high: float, points: int) -> Any:
     if not (0 < low < np.inf and 0 < high < np.inf):
         raise _WrongValueError(_MUST, "a sweep between two positive numbers")
     return np.geomspace(low, high, points)
-
-
-def _even(value: Mapping[str, object], example: str) -> Any:
-    return np.linspace(*_ends(value, example))
 
 
 def _ends(value: Mapping[str, object], example: str) -> tuple[float, float, int]:

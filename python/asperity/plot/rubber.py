@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,10 @@ from asperity.prony_fit import PronyFit
 from asperity.shift_factors import WlfFit
 from asperity.sweeps import Isotherm
 
-_STORAGE, _LOSS, _TAN = 0, 1, 2  # of the palette
+# of sweeps and of complex moduli, marks, names, places in the palette
+_PARTS = (("storage_modulus", "real", "o", "$E$′", 0), ("loss_modulus", "imag", "^", "$E$″", 1))
+_TAN = 2  # of the palette
+_SMALL = 2.5  # points, of marks
 
 
 def rubber_figure(
@@ -49,24 +53,23 @@ def draw_isotherms(axes: Axes, isotherms: Sequence[Isotherm], *, celsius: bool) 
     span = max(float(np.ptp(temperatures)), 1.0)
     for isotherm in isotherms:
         colour = shades()((isotherm.temperature - temperatures.min()) / span)
-        w = isotherm.angular_frequency
-        axes.plot(w, isotherm.storage_modulus, "o-", markersize=2.5, linewidth=0.8, color=colour)
-        axes.plot(w, isotherm.loss_modulus, "^:", markersize=2.5, linewidth=0.8, color=colour)
+        for (name, _, mark, _, _), dashes in zip(_PARTS, "-:", strict=True):
+            look: dict[str, Any] = {"markersize": _SMALL, "linewidth": 0.8, "color": colour}
+            axes.plot(isotherm.angular_frequency, getattr(isotherm, name), mark + dashes, **look)
     for extreme in (temperatures.min(), temperatures.max()):
         colour = shades()((extreme - temperatures.min()) / span)
         axes.plot([], [], color=colour, label=temperature_text(extreme, celsius=celsius))
-    axes.plot([], [], "o-", color=grey(0.4), markersize=2.5, label="$E$′")
-    axes.plot([], [], "^:", color=grey(0.4), markersize=2.5, label="$E$″")
+    for (_, _, mark, label, _), dashes in zip(_PARTS, "-:", strict=True):
+        axes.plot([], [], mark + dashes, color=grey(0.4), markersize=_SMALL, label=label)
     _logarithmic(axes, "Angular frequency $\\omega$ [rad/s]", "Modulus [Pa]")
 
 
 def _draw_master(axes: Axes, build: MasterCurveBuild, prony: PronyFit | None) -> None:
     points = build.points
     w = points.angular_frequency
-    axes.plot(
-        w, points.storage_modulus, "o", markersize=2.5, color=palette()[_STORAGE], label="$E$′"
-    )
-    axes.plot(w, points.loss_modulus, "^", markersize=2.5, color=palette()[_LOSS], label="$E$″")
+    for name, _, mark, label, place in _PARTS:
+        look: dict[str, Any] = {"markersize": _SMALL, "color": palette()[place]}
+        axes.plot(w, getattr(points, name), mark, label=label, **look)
     if prony is not None:
         dense = np.geomspace(w[0], w[-1], 300)
         fitted = prony.modulus(dense)
@@ -92,7 +95,7 @@ def draw_shifts(axes: Axes, build: MasterCurveBuild, wlf: WlfFit | None, *, cels
         fmt="o",
         markersize=4,
         capsize=3,
-        color=palette()[_STORAGE],
+        color=palette()[0],
         label="measured, ± 2 standard deviations",
     )
     if wlf is not None:
@@ -100,7 +103,7 @@ def draw_shifts(axes: Axes, build: MasterCurveBuild, wlf: WlfFit | None, *, cels
         d = t - wlf.reference_temperature
         label = f"WLF, $c_1$ = {wlf.c1:.3g}, $c_2$ = {wlf.c2:.4g} K\n"
         label += f"residual {wlf.residual:.2g} decades"
-        axes.plot(t - zero, -wlf.c1 * d / (wlf.c2 + d), color=palette()[_LOSS], label=label)
+        axes.plot(t - zero, -wlf.c1 * d / (wlf.c2 + d), color=palette()[1], label=label)
     axes.set(xlabel=f"Temperature $T$ [{'°C' if celsius else 'K'}]", ylabel="$\\log_{10} a_T$ [-]")
     legend(axes)
 
@@ -116,16 +119,13 @@ def _draw_residual(axes: Axes, build: MasterCurveBuild, prony: PronyFit | None) 
         return
     points = build.points
     fitted = prony.modulus(points.angular_frequency)
-    storage, loss = prony.storage_residual, prony.loss_residual
-    for measured, fit, mark, colour, name, of_curve in (
-        (points.storage_modulus, fitted.real, "o", palette()[_STORAGE], "$E$′", storage),
-        (points.loss_modulus, fitted.imag, "^", palette()[_LOSS], "$E$″", loss),
-    ):
-        miss = 100 * (measured / fit - 1)
+    of_curve = prony.storage_residual, prony.loss_residual
+    for (name, part, mark, label, place), off in zip(_PARTS, of_curve, strict=True):
+        miss = 100 * (getattr(points, name) / getattr(fitted, part) - 1)
         rms = np.sqrt(np.mean(miss**2))  # of the points drawn; the fit knows their smooth curve
-        label = f"{name}, rms {rms:.2g} %; of the master curve {100 * of_curve:.2g} %"
-        w = points.angular_frequency
-        axes.plot(w, miss, mark, markersize=2.5, color=colour, label=label)
+        label += f", rms {rms:.2g} %; of the master curve {100 * off:.2g} %"
+        look: dict[str, Any] = {"markersize": _SMALL, "color": palette()[place]}
+        axes.plot(points.angular_frequency, miss, mark, label=label, **look)
     legend(axes)
 
 

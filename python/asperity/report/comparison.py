@@ -161,36 +161,22 @@ def _pressures(pressure: Array) -> str:
 
 
 def _differences(at: Points, a: SceneFriction, b: SceneFriction) -> list[Difference]:
-    return [
-        Difference(
-            float(pressure),
-            float(velocity),
-            float(a.mu[i, k]),
-            float(b.mu[i, k]),
-            _verdict(_intervals(a, i, k), _intervals(b, i, k)),
-        )
-        for i, pressure in enumerate(at.pressure)
-        for k, velocity in enumerate(at.velocity)
-    ]
+    """Every point, with the first kind of error that the difference is no larger than."""
+    pairs = zip(_intervals(a), _intervals(b), strict=True)
+    meet = [(one[0] <= other[1]) & (other[0] <= one[1]) for one, other in pairs]
+    verdict = np.argmax([*meet, np.ones_like(meet[0])], axis=0)
+    columns = np.broadcast_arrays(at.pressure[:, None], at.velocity, a.mu, b.mu, verdict)
+    rows = zip(*(column.ravel().tolist() for column in columns), strict=True)
+    return [Difference(*row) for row in rows]
 
 
-def _intervals(result: SceneFriction, i: int, k: int) -> list[tuple[float, float]]:
+def _intervals(result: SceneFriction) -> list[tuple[Array, Array]]:
     """Where mu is by its numerical error alone, with its inputs', and with its model's besides."""
-    mu, error = float(result.mu[i, k]), float(result.error_estimate[i, k])
-    numerical = (mu - error, mu + error)
-    low, high = (mu, mu) if result.band is None else (float(x[i, k]) for x in result.band)
-    inputs = (min(low, mu) - error, max(high, mu) + error)
-    off = 0.0 if result.model_error is None else float(result.model_error[i, k])
-    away = float(result.hysteresis[i, k]) * (off if np.isfinite(off) else 0.0)
-    return [numerical, inputs, (inputs[0] - away, inputs[1] + away)]
-
-
-def _verdict(a: Sequence[tuple[float, float]], b: Sequence[tuple[float, float]]) -> int:
-    """The first kind of error that the difference is no larger than."""
-    for verdict, (mine, its) in enumerate(zip(a, b, strict=True)):
-        if mine[0] <= its[1] and its[0] <= mine[1]:
-            return verdict
-    return len(VERDICTS) - 1
+    mu, error = result.mu, result.error_estimate
+    low, high = (mu, mu) if result.band is None else result.band[:2]
+    inputs = np.minimum(low, mu) - error, np.maximum(high, mu) + error
+    away = result.hysteresis * np.nan_to_num(result.model_error, posinf=0.0)
+    return [(mu - error, mu + error), inputs, (inputs[0] - away, inputs[1] + away)]
 
 
 def differing_inputs(scenes: Sequence[Scene]) -> list[tuple[str, list[str]]]:
