@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import asperity
-from asperity.base.parameters import KEY_UNITS
-from asperity.io.fields import Field, fields_of, without_unit
+from asperity.base.parameters import KEY_UNITS, without_unit
+from asperity.io.fields import Field, fields_of
 from asperity.scene.keys import CONDITIONS, SOLVER, UNCERTAINTY
 from asperity.scene.parts import ADHESION, CORRECTIONS, HEATING, KINDS
 from asperity.scene.rubber import RUBBER

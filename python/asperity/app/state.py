@@ -11,7 +11,7 @@ import numpy as np
 
 from asperity.app.files import Folder
 from asperity.app.guess import Guess, guess_columns, rubber_of
-from asperity.app.loaded import OPTIONAL, editable, knows_temperature, loaded, usable, usual
+from asperity.app.loaded import OPTIONAL, editable, loaded, usable, usual
 from asperity.app.opened import Dropped, Tables, opened
 from asperity.app.words import in_words
 from asperity.base.diagnostics import Error, InvalidInput, Note
@@ -77,23 +77,11 @@ class State:
     @property
     def tables(self) -> Tables:
         """The scene as it is now: what is not used is not in it."""
-        all_tables = {
-            "surface": self.surfaces[self.surface],
-            "rubber": self.rubbers[self.rubber],
-            "conditions": self.conditions,
-            "correction": self.correction,
-            "adhesion": self.adhesion,
-            "heating": self.heating,
-            "solver": self.solver,
-            "uncertainty": self.uncertainty,
-        }
+        of_parts = {"surface": self.surfaces[self.surface], "rubber": self.rubbers[self.rubber]}
+        others = {name: getattr(self, name) for name in ("conditions", *OPTIONAL)}
+        all_tables = {**of_parts, **others}
         used = {*all_tables} - {*OPTIONAL} | self.used
         return usable({name: table for name, table in all_tables.items() if name in used})
-
-    @property
-    def knows_temperature(self) -> bool:
-        """Whether the rubber is known at others than its own."""
-        return knows_temperature(self.rubbers[self.rubber])
 
     @property
     def text(self) -> str:

@@ -5,6 +5,7 @@ keys there, and temperatures as they were given; the app what a reader sees who 
 """
 
 from collections.abc import Callable, Iterable
+from functools import partial
 from html import escape
 from typing import Any, Self
 
@@ -367,13 +368,12 @@ def unfit(argument: str, value: Any, problem: str, text: str = "") -> InvalidInp
     return InvalidInput(Argument(argument), " = ", valued(value, text), f": {problem}")
 
 
-def must_be(argument: str, allowed: str, found: str = "", *, where: object = ()) -> InvalidInput:
+def must_be(
+    argument: str, allowed: str, found: str = "", *, where: object = (), must: Must = MUST_BE
+) -> InvalidInput:
     """Return the error "where: argument found: must be allowed"; it need not be about one."""
-    sentence = Argument(argument), found, MUST_BE, allowed
+    sentence = Argument(argument), found, must, allowed
     return InvalidInput(*filter(None, sentence), where=where)
 
 
-def must_have(argument: str, allowed: str, found: str = "", *, where: object = ()) -> InvalidInput:
-    """Return the error "where: argument found: must have allowed"; it need not be about one."""
-    sentence = Argument(argument), found, Must(": must have "), allowed
-    return InvalidInput(*filter(None, sentence), where=where)
+must_have = partial(must_be, must=Must(": must have "))

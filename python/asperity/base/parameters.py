@@ -29,13 +29,16 @@ from asperity.base.arguments import (
 from asperity.base.diagnostics import Note
 from asperity.base.quantities import Quantity
 
-KEY_UNITS = {  # by how keys of scenes end, the longest first
+KEY_UNITS = {  # by how keys of scenes and columns of tables end, the longest first
     "kg_m3": "kg/m^3",
     "j_kg_k": "J/(kg K)",
     "w_m_k": "W/(m K)",
+    "per_pa": "1/Pa",
     "per_m": "1/m",
+    "rad_s": "rad/s",
     "deg": "deg",
     "m_s": "m/s",
+    "m4": "m^4",
     "pa": "Pa",
     "k": "K",
     "c": "degC",
@@ -119,6 +122,14 @@ def column(
     along dimensions of its own."""
     metadata = {"column": (unit, meaning, along), "declared": declared}
     return dataclasses.field(default=default, metadata=metadata)
+
+
+def without_unit(key: str) -> tuple[str, str]:
+    """What a key is of, and the unit at its end: "pressure_pa" has "pressure" and "Pa"."""
+    for end, unit in KEY_UNITS.items():
+        if key.endswith(f"_{end}"):
+            return key.removesuffix(f"_{end}"), unit
+    return key, ""
 
 
 @cache

@@ -6,7 +6,7 @@ has its reason. `asperity.io.plausible` holds numbers against them.
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 ZERO_CELSIUS = 273.15  # [K]
 
@@ -99,12 +99,7 @@ LAST_WAVENUMBER = Quantity(
     high=Limit(4e10, "a wavelength of 0.16 nm, the distance of atoms"),
     most=Limit(1e11, "a wavelength below that of atoms"),
 )
-WAVENUMBER = Quantity(  # of no certain end
-    WAVENUMBER_UNITS,
-    likely=(1e1, 1e10),
-    least=Limit(1e-3, "a wavelength of 6 km"),
-    most=Limit(1e11, "a wavelength below that of atoms"),
-)
+WAVENUMBER = replace(FIRST_WAVENUMBER, likely=(1e1, 1e10), low=None)  # of no certain end
 # At an rms slope of 100 a surface stands at 89.4 degrees; measured ones have up to a few.
 SLOPE = Quantity(
     NUMBER_UNITS,
@@ -133,13 +128,7 @@ PRESSURE = Quantity(
     most=Limit(1e9, "any road stone breaks"),
 )
 # rho g h again, 1 cm: asked of what is no gel.
-PRESSURE_ON_RUBBER = Quantity(
-    PRESSURE_UNITS,
-    likely=(5e3, 1e6),
-    least=Limit(0.1, "the weight of 10 um of rubber"),
-    low=Limit(100.0, "the weight of 1 cm of rubber"),
-    most=Limit(1e9, "any road stone breaks"),
-)
+PRESSURE_ON_RUBBER = replace(PRESSURE, low=Limit(100.0, "the weight of 1 cm of rubber"), high=None)
 RUBBER_FROM = 1e5  # [Pa]: the softest silicone rubbers have it, gels are softer
 # The largest |E| that a rubber's data reach. 3 k T / xi^3 of a network with meshes of xi = 50 nm is
 # 100 Pa (rubber elasticity); polyacrylamide gels begin at 200 Pa (Tse and Engler, Curr. Protoc.
@@ -153,13 +142,11 @@ MODULUS = Quantity(
     high=Limit(2e10, "glassy polymers reach 5e9 Pa, filled ones 2e10 Pa"),
     most=Limit(1e11, "stiffer than window glass"),
 )
-RELAXED_MODULUS = Quantity(  # 0 for a liquid
-    MODULUS_UNITS,
+RELAXED_MODULUS = replace(  # 0 for a liquid
+    MODULUS,
     likely=(1e5, 1e9),
     least=Limit(0.0, ""),
     low=Limit(10.0, "gels are stiffer; a liquid has 0"),
-    high=Limit(2e10, "glassy polymers reach 5e9 Pa, filled ones 2e10 Pa"),
-    most=Limit(1e11, "stiffer than window glass"),
 )
 # tau_f of rubber on roads is 1 to 10 MPa, of hydrogels some 10 Pa and more; the ideal shear
 # strength of a glassy polymer, G / 10, is 1e8 Pa.

@@ -12,7 +12,7 @@ import numpy as np
 from asperity._core import InvalidInput, NotConverged, OutOfRange
 from asperity.base.arguments import shortened
 from asperity.base.diagnostics import Advice, Argument, Must, Sentence, Value, Words, valued
-from asperity.base.parameters import KEY_UNITS, Parameter, parameters
+from asperity.base.parameters import Parameter, parameters, without_unit
 from asperity.base.quantities import TEMPERATURE, Quantity
 from asperity.io import plausible
 from asperity.io.toml import toml_value
@@ -256,14 +256,6 @@ def nearest(name: str, known: Mapping[str, object], form: str = "{}") -> str:
         unit = " Its number is in another unit." if _other_unit(name, close[0]) else ""
         return "did you mean " + form.format(close[0]) + "?" + unit
     return "allowed are " + ", ".join(form.format(key) for key in known)
-
-
-def without_unit(key: str) -> tuple[str, str]:
-    """What a key is of, and the unit at its end: "pressure_pa" has "pressure" and "Pa"."""
-    for end, unit in KEY_UNITS.items():
-        if key.endswith(f"_{end}"):
-            return key.removesuffix(f"_{end}"), unit
-    return key, ""
 
 
 def _other_unit(name: str, key: str) -> bool:

@@ -15,21 +15,7 @@ import numpy as np
 
 from asperity._core import __version__
 from asperity.base.diagnostics import Note, fatal_first, must_be
-
-# Endings of columns that are no pure numbers; the first that fits holds.
-UNITS = {
-    "scene": "file",
-    "_per_pa": "1/Pa",
-    "_pa": "Pa",
-    "_m_s": "m/s",
-    "_rad_s": "rad/s",
-    "_time_s": "s",
-    "_per_m": "1/m",
-    "_m4": "m^4",
-    "temperature_k": "K",
-    "_deg": "deg",
-    "_m": "m",
-}
+from asperity.base.parameters import without_unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +91,7 @@ def json_text(value: Any, **options: Any) -> str:
 
 
 def unit(column: str) -> str:
-    return next((u for ending, u in UNITS.items() if column.endswith(ending)), "-")
+    return "file" if column == "scene" else without_unit(column)[1] or "-"
 
 
 def terminal_table(columns: Mapping[str, Iterable[float]]) -> str:

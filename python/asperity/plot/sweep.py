@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from asperity.base.diagnostics import Argument, InvalidInput, must_be
+from asperity.base.parameters import without_unit
 from asperity.draw.figure import (
     COLUMN,
     MOST_ENTRIES,
@@ -18,7 +19,6 @@ from asperity.draw.figure import (
     tell_fatal_notes,
 )
 from asperity.draw.style import Axes, Figure, colours, grey, narrow
-from asperity.io.fields import without_unit
 
 _MOST_PANELS = 8  # along either axis
 _TITLES = {"conditions.velocity_m_s": VELOCITY, "conditions.pressure_pa": PRESSURE}

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 
 from asperity._core import Error, __version__
+from asperity.base.parameters import without_unit
 from asperity.base.table import imported
 from asperity.io.aside import folder_beside
-from asperity.io.fields import without_unit
 from asperity.sweep.axes import Axis
 from asperity.sweep.chunks import BLOSC, FAILURE
 from asperity.sweep.outcome import Tally
