@@ -73,8 +73,8 @@ def map_of(scene: Scene, tell: Tell = _silent) -> FrictionMap:
     return map_of_scene(_unplaced(scene), MAP_RTOL, checked=CHECKED, progress=progress)
 
 
-def fmu_of(made: FrictionMap) -> bytes:
-    return archived(fmu_files(made))
+def fmu_of(scene: Scene, tell: Tell = _silent) -> bytes:
+    return archived(fmu_files(map_of(scene, tell)))
 
 
 def report_of(state: State, tell: Tell = _silent) -> Make:

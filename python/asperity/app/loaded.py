@@ -2,7 +2,6 @@
 
 import math
 import tomllib
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -56,15 +55,10 @@ def usable(tables: Tables) -> Tables:
     tables = {name: dict(table) for name, table in tables.items()}
     if "heating" in tables and "adhesion" not in tables:
         tables["heating"].pop("interface_share", None)  # of what adhesion makes
-    if not knows_temperature(tables["rubber"]):
+    if not {"isotherms", "shift", "wlf_c1"} & tables["rubber"].keys():  # has one temperature
         for key in ("temperature_k", "temperature_c"):
             tables["conditions"].pop(key, None)
     return tables
-
-
-def knows_temperature(rubber: Mapping[str, Any]) -> bool:
-    """Whether the rubber is known at others than its own."""
-    return bool({"isotherms", "shift", "wlf_c1"} & rubber.keys())
 
 
 def editable(name: str, tables: Tables) -> Tables:

@@ -1,7 +1,7 @@
 """The part of the result: mu(v), which roughness makes it, notes, variants and downloads."""
 
 import asyncio
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import partial
 from html import escape
 from typing import Any
@@ -169,8 +169,9 @@ class ResultPart(Shows):
         solved = solved_contacts(found.scene)
         if solved is not None:
             errors.append(f"{solved[0]} contacts of the scan are solved, on up to {solved[1]}")
+        items = "".join(f"<li>{escape(one)}</li>" for one in errors)
         notes = [self._state.said(one) for one in found.best.notes] or [Note(_NOTHING)]
-        self._notes.set_content(html_items(notes) + _items(errors))
+        self._notes.set_content(html_items(notes) + items)
         self._table.set_content(_table(found.scene, found.best))
 
     def _offer_velocities(self, found: Found) -> None:
@@ -247,10 +248,7 @@ class ResultPart(Shows):
             "Picture": ("friction.svg", lambda f, _: self._picture(f)),
             "Report": ("report.html", lambda f, tell: give.report_of(state, tell)),
             "Map": ("friction.fmap", lambda f, tell: lambda: give.map_of(f.scene, tell).to_bytes()),
-            "FMU": (
-                "friction.fmu",
-                lambda f, tell: lambda: give.fmu_of(give.map_of(f.scene, tell)),
-            ),
+            "FMU": ("friction.fmu", lambda f, tell: lambda: give.fmu_of(f.scene, tell)),
         }
         with ui.element("div").classes("flex gap-2 py-2") as group:
             group.props('role="group" aria-label="Downloads"')
@@ -288,10 +286,6 @@ class ResultPart(Shows):
 
         button = ui.button(label, icon="download", on_click=give)
         button.props('no-caps dense unelevated color="blue-9"').classes("px-2")
-
-
-def _items(lines: Sequence[str]) -> str:
-    return "".join(f"<li>{escape(line)}</li>" for line in lines)
 
 
 def _table(scene: Scene, curves: SceneFriction) -> str:

@@ -99,7 +99,7 @@ class Worker:
         def compute() -> Found:
             nonlocal scene
             scene = self.state.load(tables)
-            cold = without_heat(scene).friction(checked)
+            cold = replace(scene, heating=None).friction(checked)
             return Found(tables, scene, cold, cold if scene.heating is None else None)
 
         try:
@@ -207,11 +207,6 @@ async def in_thread(compute: Callable[[], _Made]) -> _Made:
     loop: Any = asyncio.get_running_loop()
     made: _Made = await loop.run_in_executor(None, compute)
     return made
-
-
-def without_heat(scene: Scene) -> Scene:
-    """The scene as it slides cold: what is shown first."""
-    return replace(scene, heating=None)
 
 
 def with_band(

@@ -7,6 +7,7 @@ has its reason. `asperity.io.plausible` holds numbers against them.
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 ZERO_CELSIUS = 273.15  # [K]
 
@@ -34,6 +35,19 @@ class Quantity:
     most: Limit
     low: Limit | None = None
     high: Limit | None = None
+
+    def to_si(self, number: Any, unit: str) -> Any:
+        factor, offset = self.units[unit]
+        return factor * number + offset
+
+    def of_si(self, number: Any, unit: str) -> Any:
+        factor, offset = self.units[unit]
+        return (number - offset) / factor
+
+    def size(self, number: Any, unit: str) -> Any:
+        """What is held against the limits [SI]."""
+        si = self.to_si(number, unit)
+        return si if self.units is TEMPERATURE_UNITS else abs(si)
 
 
 def _factors(**units: float) -> dict[str, tuple[float, float]]:

@@ -96,8 +96,7 @@ def read_declared(
         _check_sizes(table, units, factor, reduced)
         for name in values:
             kind = _KINDS.get(name, name)
-            scale, offset = KINDS[kind].units[units[kind]]
-            values[name] = scale * values[name] + offset
+            values[name] = KINDS[kind].to_si(values[name], units[kind])
             if name in _KINDS:
                 values[name] = factor * values[name]
         tables.append(table)

@@ -278,18 +278,13 @@ def read_table(
         try:
             values[key] = fields[key].read(value)
         except _WrongValueError as wrong:
-            phrase = valued(value, _shown(value))
+            phrase = valued(value, shortened(toml_value(value), 80))
             about = Argument(f"[{section}] {key}"), " = ", phrase, ": "
             raise InvalidInput(*about, *wrong.sentence, where=path) from None
         if (quantity := fields[key].quantity) is not None:
             name = f"[{section}] {key}"
             plausible.check(name, values[key], quantity, fields[key].unit, path=path)
     return values
-
-
-def _shown(value: object) -> str:
-    text = toml_value(value)
-    return text if len(text) <= 80 else text[:77] + "..."
 
 
 def arguments(values: Mapping[str, Any], fields: Mapping[str, Field]) -> dict[str, Any]:

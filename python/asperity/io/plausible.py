@@ -27,7 +27,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
-from asperity.base.arguments import Array
 from asperity.base.diagnostics import MUST_BE, Argument, Note, Sentence, Value, valued
 from asperity.base.quantities import (
     LENGTH_UNITS,
@@ -132,7 +131,7 @@ def check(
         numbers = numbers[numbers != 0]
     if numbers.size == 0:
         return
-    size = _in_si(numbers, quantity, unit)
+    size = quantity.size(numbers, unit)
     lowest, highest = int(size.argmin()), int(size.argmax())
     for at, side, words, limit in (
         (lowest, -1, (MUST_BE, "at least"), quantity.least),
@@ -140,7 +139,8 @@ def check(
         (lowest, -1, (": unusual, below",), quantity.low),
         (highest, 1, (": unusual, above",), quantity.high),
     ):
-        if limit is not None and _beyond(size[at], side, limit):
+        # sweeps end on rounded numbers
+        if limit is not None and side * (size[at] - limit.value) > 1e-9 * abs(limit.value):
             code = "absurd-value" if MUST_BE in words else "unusual-value"
             _tell(_sentence(name, float(numbers[at]), quantity, unit, words, limit), code, path)
             if MUST_BE in words:
@@ -216,21 +216,10 @@ def _keep(note: Note) -> None:
         sink[0].append(note)
 
 
-def _in_si(numbers: Array, quantity: Quantity, unit: str) -> Array:
-    factor, offset = quantity.units[unit]
-    si = factor * numbers + offset
-    return si if quantity.units is TEMPERATURE_UNITS else np.abs(si)
-
-
-def _beyond(size: float, side: int, limit: Limit) -> bool:
-    return side * (size - limit.value) > 1e-9 * abs(limit.value)  # sweeps end on rounded numbers
-
-
 def _sentence(
     name: str, value: float, quantity: Quantity, unit: str, words: Sentence, limit: Limit
 ) -> Sentence:
-    factor, offset = quantity.units[unit]
-    bound = f" {(limit.value - offset) / factor:.6g} {unit}".rstrip()
+    bound = f" {quantity.of_si(limit.value, unit):.6g} {unit}".rstrip()
     phrase = Value(f"{value:.6g}", (value,), unit if quantity.units is TEMPERATURE_UNITS else "")
     guess = _guess(value, quantity, unit)
     return Argument(name), " = ", phrase, *words, f"{bound} ({limit.reason}){guess}"
@@ -238,11 +227,11 @@ def _sentence(
 
 def _guess(value: float, quantity: Quantity, unit: str) -> str:
     """The first other unit in which the number would be likely."""
-    factor, offset = quantity.units[unit]
-    for other, (scale, shift) in quantity.units.items():
-        si = scale * value + shift
-        size = si if quantity.units is TEMPERATURE_UNITS else abs(si)
-        if other != unit and quantity.likely[0] <= size <= quantity.likely[1]:
-            here = (si - offset) / factor
+    for other in quantity.units:
+        if (
+            other != unit
+            and quantity.likely[0] <= quantity.size(value, other) <= quantity.likely[1]
+        ):
+            here = quantity.of_si(quantity.to_si(value, other), unit)
             return f"; in {other}? {value:.6g} {other} is {here:.6g} {unit}"
     return ""

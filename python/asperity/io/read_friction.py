@@ -102,8 +102,7 @@ def read_friction(path: str | os.PathLike[str]) -> MeasuredFriction:
         if kind in _QUANTITIES:
             unit = _COLUMNS[kind][name]
             plausible.check(name, values, _QUANTITIES[kind], unit, path=path)
-            factor, offset = _QUANTITIES[kind].units[unit]
-            values = values * factor + offset
+            values = _QUANTITIES[kind].to_si(values, unit)
         arrays[kind] = values
     return MeasuredFriction(**arrays)
 
