@@ -39,13 +39,13 @@ def demo(args: Namespace) -> None:
     """Write the shipped scan and scenes, compute and draw the hot one, show the curve."""
     directory = FilePath(args.output)
     check_directory(directory, FILES, force=args.force)
-    files = input_files()
+    files: dict[str, bytes | str] = {**input_files()}
     with TemporaryDirectory() as aside:
         write_files({FilePath(aside) / name: data for name, data in files.items()})
         scene = load_scene(FilePath(aside) / "hot.toml", for_friction=True)
     scene = replace(scene, path=directory / "hot.toml")
     table, curves = friction_table([scene], bands=True, bar=progress)
-    files["friction.csv"] = _bytes(table.csv())
+    files["friction.csv"] = table.csv()
     picture = directory / "friction.png"
     missing = importlib.util.find_spec("matplotlib") is None
     if not missing:
@@ -139,12 +139,12 @@ def write_outputs(
 ) -> None:
     """Write files, then print what was found, the notes, and the table where no file takes it."""
     text = table.json() if args.json else table.csv()
-    files: dict[Path, bytes] = {}
+    files: dict[Path, bytes | str] = {}
     if args.plot is not None:
         with drawn_in(args.style, table.notes):
             files[FilePath(args.plot)] = draw(FilePath(args.plot))
     if args.output is not None:
-        files[FilePath(args.output)] = _bytes(text)
+        files[FilePath(args.output)] = text
     write_files(files)
     for name, value in (numbers or {}).items():
         print_stderr(f"{name} = {'none' if value is None else f'{value:.6g}'}\n")
@@ -153,18 +153,10 @@ def write_outputs(
         print_stdout(text)
 
 
-def _bytes(text: str) -> bytes:
-    return text.encode(errors="backslashreplace")  # file names need not be UTF-8
-
-
 def app(args: Namespace) -> None:
     """Serve until Ctrl-C; the address is one line on standard output."""
-    serve(
-        args.host,
-        args.port,
-        browser=not args.no_browser,
-        tell=lambda address: print_stdout(f"{address}\n"),
-    )
+    browser = not args.no_browser
+    serve(args.host, args.port, browser=browser, tell=lambda line: print_stdout(f"{line}\n"))
 
 
 def report(args: Namespace) -> None:

@@ -77,7 +77,7 @@ def _make(args: Namespace, outputs: list[Path], exported: Path | None) -> None:
     _tell(args, made)
 
 
-def _export(made: FrictionMap, path: Path | None) -> dict[Path, bytes]:
+def _export(made: FrictionMap, path: Path | None) -> dict[Path, bytes | str]:
     """The grid that was asked for, and a line with what interpolation in it costs."""
     if path is None:
         return {}

@@ -82,7 +82,7 @@ def rubber(args: Namespace) -> None:
     notes = [note.said(all_in_celsius) for note in notes] if celsius else notes
     inputs["note_lines"] = [note.line for note in notes]  # for a scene that reads the curve
     table = Table("rubber", [inputs], notes, columns)
-    beside: dict[Path, str] = {}
+    beside: dict[Path, bytes | str] = {}
     if args.write_shift is not None:
         of_build = {"reference_temperature_k": build.reference_temperature}
         its_table = Table("rubber", [of_build], build.notes, _isotherms(build))
@@ -90,7 +90,7 @@ def rubber(args: Namespace) -> None:
     if args.write_prony is not None:
         path = FilePath(args.write_prony)
         beside[path] = _prony_text(args, path, build, prony)
-    write_files({path: text.encode() for path, text in beside.items()})
+    write_files(beside)
 
     def draw(path: Path) -> bytes:
         return plot_rubber.rubber_figure(isotherms, build, wlf, prony, path, celsius=celsius)

@@ -13,7 +13,7 @@ from asperity.base.arguments import FilePath, reading
 _DEVICE = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG}  # no fault of the path's
 
 
-def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
+def write_whole(path: str | os.PathLike[str], content: bytes | str) -> None:
     """Replace a regular file by another, keeping its permissions; write into a device or a FIFO.
 
     The new content is written under a random name beside the file, which nobody else can have, and
@@ -28,10 +28,12 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
         The device is full or fails.
     """
     with _refused(path):
+        if isinstance(content, str):  # with names of files, which need be no text
+            content = content.encode(errors="backslashreplace")
         _write(Path(os.path.realpath(path)), content)
 
 
-def write_files(contents: Mapping[Path, bytes]) -> None:
+def write_files(contents: Mapping[Path, bytes | str]) -> None:
     """Write every file whole, one after the other, into directories that are made where missing."""
     for path, content in contents.items():
         with _refused(path):

@@ -40,7 +40,7 @@ def write_report(
     """Write the report of scenes; `bar` shows how far it is."""
     check_output(output)
     page, _ = report_page(paths, title, bar, output=output)
-    write_whole(output, page.encode(errors="backslashreplace"))  # a name that is no text
+    write_whole(output, page)
 
 
 def report_page(
