@@ -55,16 +55,22 @@ def in_order(
         for _ in steps:
             yield lambda: compute(*draw())
         return
-    from concurrent.futures import Future, ThreadPoolExecutor  # here: `import` is to be quick
+    from concurrent.futures import ThreadPoolExecutor  # here: `import asperity` is to be quick
 
     with ThreadPoolExecutor(threads) as pool:
-        pending: deque[Future[Outcome]] = deque()
+        pending: deque[Callable[[], Outcome]] = deque()
         for _ in steps:
             try:
-                pending.append(pool.submit(compute, *draw()))
+                pending.append(pool.submit(compute, *draw()).result)
             except Exception as error:
-                pending.append(Future())
-                pending[-1].set_exception(error)
+                pending.append(_raises(error))
             if len(pending) > 2 * threads:  # no thread waits, and no more is kept than that
-                yield pending.popleft().result
-        yield from (one.result for one in pending)
+                yield pending.popleft()
+        yield from pending
+
+
+def _raises(error: Exception) -> Callable[[], Any]:
+    def outcome() -> Any:
+        raise error
+
+    return outcome

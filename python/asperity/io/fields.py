@@ -242,6 +242,7 @@ def refuse(path: Path, field: str, problem: str, phrase: Value | None = None) ->
 def require(
     path: Path, section: str, values: Mapping[str, object], keys: tuple[str, ...], hint: str = ""
 ) -> None:
+    """Refuse a table that lacks one of `keys`."""
     for key in keys:
         if key not in values:
             refuse(path, f"[{section}] {key}", "missing" + (hint and f"; {hint}"))
