@@ -60,11 +60,7 @@ def drawn(draw: Callable[[Path], bytes], style: str) -> str:
     return f"data:image/png;base64,{base64.b64encode(content).decode()}"
 
 
-def _silent(line: str) -> None:
-    """Tell nobody."""
-
-
-def map_of(scene: Scene, tell: Tell = _silent) -> FrictionMap:
+def map_of(scene: Scene, tell: Tell) -> FrictionMap:
     """The friction map over a box about the scene's pressure and its velocities."""
 
     def progress(share: float) -> None:
@@ -73,11 +69,11 @@ def map_of(scene: Scene, tell: Tell = _silent) -> FrictionMap:
     return map_of_scene(_unplaced(scene), MAP_RTOL, checked=CHECKED, progress=progress)
 
 
-def fmu_of(scene: Scene, tell: Tell = _silent) -> bytes:
+def fmu_of(scene: Scene, tell: Tell) -> bytes:
     return archived(fmu_files(map_of(scene, tell)))
 
 
-def report_of(state: State, tell: Tell = _silent) -> Make:
+def report_of(state: State, tell: Tell) -> Make:
     """The report of the scene, compared with the variants that were kept."""
     texts = {"scene.toml": state.text}
     for i, variant in enumerate(state.variants, start=1):

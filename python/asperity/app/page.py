@@ -3,10 +3,12 @@
 import secrets
 from collections import OrderedDict
 from collections.abc import Sequence
+from functools import partial
 from importlib.resources import files
 
 from nicegui import ui
 
+from asperity.app.alternatives import TakesFiles
 from asperity.app.conditions import ConditionsPart
 from asperity.app.parts import heading
 from asperity.app.result import ResultPart
@@ -17,30 +19,21 @@ from asperity.app.upload import Upload
 from asperity.app.worker import Shows, Worker
 
 
-class OpenPart:
+class OpenPart(TakesFiles):
     def __init__(self, state: State, worker: Worker, parts: Sequence[Shows]) -> None:
-        self._state, self._worker, self._parts = state, worker, parts
+        super().__init__(state, worker)
+        self._parts = parts
+        text = "Drop a scene file with the files it names, or its ZIP"
         with ui.expansion("Open a scene").classes("w-full").props("dense"):
-            Upload(
-                "Drop a scene file with the files it names, or its ZIP",
-                self._taken,
-                self._say,
-                multiple=True,
-            )
-            self._problem = ui.label("").classes("problem").props('role="alert"')
+            Upload(text, self._taken, self._say, multiple=True)
+            self._add_problem()
 
     async def _taken(self, files: list[tuple[str, bytes]]) -> None:
-        self._say("")
-        take = await self._worker.attempt(lambda: self._state.open_scene(files), self._say)
-        if take is None:
-            return
-        take()
+        await self._take_up(partial(self._state.open_scene, files))
+
+    def refresh(self) -> None:
         for part in self._parts:
             part.refresh()
-        await self._worker.changed()
-
-    def _say(self, problem: str) -> None:
-        self._problem.set_text(problem)
 
 
 _MOST_SESSIONS = 16  # the one that was not used for longest goes

@@ -138,19 +138,18 @@ def _write(target: Path, content: bytes) -> None:
     if mode is not None and not stat.S_ISREG(mode):
         target.write_bytes(content)  # a device or a FIFO; a directory refuses
         return
-    import tempfile
-
-    handle, part = tempfile.mkstemp(prefix=".asperity-", dir=target.parent)
+    part = target.parent / f".asperity-{os.urandom(8).hex()}"
     try:
-        with os.fdopen(handle, "wb") as file:
+        with part.open("xb") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        os.chmod(part, stat.S_IMODE(mode) if mode is not None else 0o666 & ~_umask())
-        os.replace(part, target)
+        if mode is not None:
+            part.chmod(stat.S_IMODE(mode))
+        part.replace(target)
     except BaseException:
         with suppress(OSError):
-            os.unlink(part)
+            part.unlink()
         raise
 
 
@@ -159,10 +158,3 @@ def _mode(path: Path) -> int | None:
     with suppress(FileNotFoundError):
         return path.stat().st_mode
     return None
-
-
-def _umask() -> int:
-    """Return which permissions a new file does not get. There is no other way to ask."""
-    mask = os.umask(0o077)
-    os.umask(mask)
-    return mask

@@ -239,7 +239,7 @@ def test_the_report_tells_no_folder(state: State, monkeypatch: pytest.MonkeyPatc
     scene = state.load()
     state.keep_variant("<b>", state.tables, scene, scene.friction())
     state.conditions["pressure_pa"] = 2e5
-    page = report_of(state)().decode()
+    page = report_of(state, print)().decode()
     assert str(state.folder.path) not in page
     assert "<title>Friction of this scene, &lt;b&gt;</title>" in page
     assert "variant-1.toml against scene.toml" in page
@@ -248,7 +248,7 @@ def test_the_report_tells_no_folder(state: State, monkeypatch: pytest.MonkeyPatc
 def test_the_map_is_that_of_the_scene(state: State, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("asperity.app.downloads.CHECKED", 100)
     scene = state.load()
-    made = map_of(scene)
+    made = map_of(scene, print)
     inside = scene.velocity[1:-1]
     assert made.mu(81e3, inside) == pytest.approx(scene.friction().mu[0, 1:-1], rel=1e-3)
     assert "asperity-app" not in made.text
