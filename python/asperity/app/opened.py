@@ -6,8 +6,10 @@ from pathlib import PurePosixPath
 from typing import Any
 
 from asperity.app.files import MOST_FILES, Folder, plain
+from asperity.base.arguments import reading
 from asperity.base.diagnostics import InvalidInput, must_be, must_have
 from asperity.io.archive import Archive
+from asperity.io.instrument import understood
 from asperity.io.toml import read_toml_text
 from asperity.scene.keys import with_files
 from asperity.scene.scene import check_tables
@@ -57,25 +59,18 @@ def _unpacked(name: str, content: bytes) -> list[tuple[str, bytes]]:
     if not name.lower().endswith(".zip"):
         return [(name, content)]
     shown = plain(name)
-    try:
+    with reading(PurePosixPath(shown)), understood("cannot be unpacked"):
         archive = Archive(io.BytesIO(content))
         if len(archive.members) > MOST_FILES:
             raise must_be("", f"at most {MOST_FILES}", f"holds {len(archive.members)} files")
         return [(one.filename, archive.open(one).read_all()) for one in archive.members]
-    except InvalidInput as error:
-        raise error.within(PurePosixPath(shown)) from error
-    except Exception as error:  # zlib and zipfile have errors of many kinds
-        problem = str(error) or "it ends too early"
-        raise InvalidInput(f"cannot be unpacked: {problem}", where=shown) from error
 
 
 def _tables(name: str, content: bytes) -> Tables:
     if len(content) > _MOST_TEXT:
         raise must_have("", f"at most {_MOST_TEXT}", f"has {len(content)} bytes", where=name)
-    try:
+    with reading(PurePosixPath(name)):
         tables = read_toml_text(content)
-    except InvalidInput as error:
-        raise error.within(PurePosixPath(name)) from error
     check_tables(PurePosixPath(name), tables)  # type: ignore[arg-type]  # it only names it
     for key, table in tables.items():
         if not isinstance(table, dict):

@@ -7,7 +7,7 @@ from typing import Any, Literal
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array
+from asperity.base.arguments import Array, reading
 from asperity.io.columns import Columns, Names
 from asperity.io.declared import Paths, file_of, files_of, read_declared, young
 from asperity.io.ramps import STEP, is_ramp, isotherms_of_ramp, without_other_tests
@@ -117,7 +117,7 @@ def read_strain_sweep(
     wanted = ("strain", "frequency", "storage", "loss", "temperature")
     (table,) = read_declared([file], columns, units, wanted, factor)
     values = table.taken(np.argsort(table.values["strain"], kind="stable")).values
-    try:
+    with reading(file):
         return StrainSweep(
             temperature=_mean(values["temperature"]),
             angular_frequency=_mean(values["frequency"]),
@@ -125,5 +125,3 @@ def read_strain_sweep(
             storage_modulus=values["storage"],
             loss_modulus=values["loss"],
         )
-    except InvalidInput as error:
-        raise error.within(file) from error

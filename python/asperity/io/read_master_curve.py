@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from asperity.base.arguments import Array
+from asperity.base.arguments import Array, reading
 from asperity.base.diagnostics import Argument, InvalidInput, Note
 from asperity.io import plausible
 from asperity.io.columns import Columns, Names
@@ -97,10 +97,8 @@ def read_master_curve(
         ) from error
     if columns is not None and shift is not None:
         table.values["frequency"] *= 10 ** _log10_a_t(shift, table.values["temperature"])
-    try:
+    with reading(file):
         return _curve(table, _TOGETHER if shift is None else _OF_RAMP, extrapolation)
-    except InvalidInput as error:
-        raise error.within(file) from error
 
 
 def _log10_a_t(shift: TemperatureShift, temperature: Array) -> Any:

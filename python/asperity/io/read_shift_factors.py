@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.base import quantities
-from asperity.base.arguments import path_of
+from asperity.base.arguments import path_of, reading
 from asperity.base.diagnostics import InvalidInput, Note, OutOfRange
 from asperity.base.quantities import ZERO_CELSIUS
 from asperity.io import plausible
@@ -59,14 +59,12 @@ def read_shift_factors(
     temperature, log10_a_t = _written_by_rubber(file) or _table(file)
     plausible.check("temperature_k", temperature, quantities.TEMPERATURE, path=file)
     order = np.argsort(temperature, kind="stable")
-    try:
+    with reading(file):
         shifts = ShiftFactors(
             reference_temperature=reference_temperature,
             temperature=temperature[order],
             log10_a_T=log10_a_t[order],
         )
-    except InvalidInput as error:
-        raise error.within(file) from error
     return _relative(file, shifts)
 
 

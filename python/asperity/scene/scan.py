@@ -11,7 +11,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array
+from asperity.base.arguments import Array, reading
 from asperity.base.diagnostics import Note, must_be
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import NO_DIRECTIONS, Window, line_spectrum, power_spectrum
@@ -40,10 +40,8 @@ _SMOOTHED = 5  # rows of a running median, past which a single line does not rea
 def read_filled(path: Path, *, max_fraction: float, **settings: Any) -> tuple[Scan, Scan]:
     """A scan as `read_surface` reads it, and the same without drop-outs."""
     scan = read_surface(path, **settings)
-    try:
+    with reading(path):
         return scan, scan.fill_dropouts(max_fraction=max_fraction)
-    except InvalidInput as error:
-        raise error.within(path) from error
 
 
 def surface_spectrum(
