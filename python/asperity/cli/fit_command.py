@@ -112,12 +112,8 @@ def _fit_adhesion(args: Namespace) -> None:
         measured = read_friction(path)
     if measured.temperature is not None and np.ptp(measured.temperature) > _WARMER:
         low, high = measured.temperature.min(), measured.temperature.max()
-        raise must_be(
-            "",
-            "of one temperature, unless --free is given",
-            f"has temperatures from {low:.5g} to {high:.5g} K",
-            where=path,
-        )
+        result = f"has temperatures from {low:.5g} to {high:.5g} K"
+        raise must_be("", "of one temperature, unless --free is given", result, where=path)
     scene = load_scene(args.scene)
     refuse_overwrite(outputs, [*scene.sources, path])
     experiment = Experiment(path, measured, pressures(scene, measured, path), held)
@@ -126,22 +122,13 @@ def _fit_adhesion(args: Namespace) -> None:
     adhesion, problem = found_in[0]
     if adhesion is None:
         raise problem or AssertionError
-    fits = [
-        Fitted(
-            model,
-            adhesion,
-            problem,
-            experiment.curves(model, adhesion, progress(f"{model.path}, band")),
-        )
-        for model, (adhesion, problem) in zip(models, found_in, strict=True)
-    ]
+    fits = []
+    for model, (of_model, problem) in zip(models, found_in, strict=True):
+        curves = experiment.curves(model, of_model, progress(f"{model.path}, band"))
+        fits.append(Fitted(model, of_model, problem, curves))
     table = _table(args, experiment, fits, unusual)
-    write_outputs(
-        args,
-        table,
-        lambda picture: plot_fit.fit_figure(fits, experiment, picture),
-        found(adhesion),
-    )
+    draw = partial(plot_fit.fit_figure, fits, experiment)
+    write_outputs(args, table, draw, found(adhesion))
 
 
 def _held(given: Mapping[str, str]) -> dict[str, float]:
@@ -189,17 +176,14 @@ def _table(
         if fit.curves.band is not None:
             low, high = fit.curves.band
             columns |= {f"mu_low{suffix}": low.ravel(), f"mu_high{suffix}": high.ravel()}
-        said: tuple[Note, ...] = (
-            () if fit.problem is None else (Note(f"{fit.problem}", code="no-adhesion"),)
-        )
+        said = [] if fit.problem is None else [Note(f"{fit.problem}", code="no-adhesion")]
         if fit.adhesion is not None:
-            covariance = fit.adhesion.covariance.tolist()
             inputs[f"found{suffix}"] = {
                 **found(fit.adhesion),
-                "covariance": covariance,
+                "covariance": fit.adhesion.covariance.tolist(),
                 "outlier_rows": (np.flatnonzero(fit.adhesion.outliers) + 1).tolist(),
             }
-            said = fit.adhesion.notes
+            said = [*fit.adhesion.notes]
         named = partial(in_keys, names={"outliers": "outlier_rows"})
         new = [note.said(named) for note in said if note not in known]
         notes += [note.within("without the correction: ") for note in new] if suffix else new

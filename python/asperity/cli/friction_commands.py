@@ -7,15 +7,16 @@ from argparse import Namespace
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.app.serve import serve
 from asperity.base.arguments import FilePath
+from asperity.base.diagnostics import InvalidInput, must_be
 from asperity.base.table import to_install
 from asperity.cli.options import goes_with
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
@@ -72,7 +73,7 @@ def friction(args: Namespace) -> None:
     scenes = [scene for file in files for scene in (file, *file.others)]
     refuse_overwrite(outputs, [source for scene in scenes for source in scene.sources])
     table, curves = friction_table(scenes, bands=args.plot is not None, bar=progress)
-    write_outputs(args, table, lambda path: plot_friction.friction_figure(scenes, curves, path))
+    write_outputs(args, table, partial(plot_friction.friction_figure, scenes, curves))
 
 
 def shows_bars() -> bool:
@@ -96,19 +97,16 @@ def area(args: Namespace) -> None:
     refuse_overwrite(outputs, scene.sources)
     rows = scene.pressure.size * scene.velocity.size * args.points
     if rows > MOST_ROWS:
-        problem = (
-            f"pressures, velocities and --points make {rows} rows: must be at most {MOST_ROWS}"
-        )
-        raise InvalidInput(problem, where=scene.path)
+        text = f"pressures, velocities and --points make {rows} rows"
+        raise must_be("", f"at most {MOST_ROWS}", text, where=scene.path)
     wavenumber = np.geomspace(scene.spectrum.q0, scene.spectrum.q1, args.points)
     values = scene.contact_area(wavenumber, progress(f"{scene.path}"))
     grid = np.meshgrid(scene.pressure, scene.velocity, wavenumber, indexing="ij")
     names = ("pressure_pa", "velocity_m_s", "wavenumber_per_m", "contact_area")
     columns = {n: v.ravel() for n, v in zip(names, (*grid, values), strict=True)}
-    table = Table(
-        "area", [{**scene_inputs(scene), "points": args.points}], scene.contact_notes(), columns
-    )
-    write_outputs(args, table, lambda picture: plot.area_figure(scene, wavenumber, values, picture))
+    inputs = {**scene_inputs(scene), "points": args.points}
+    table = Table("area", [inputs], scene.contact_notes(), columns)
+    write_outputs(args, table, partial(plot.area_figure, scene, wavenumber, values))
 
 
 def check_outputs(args: Namespace, **others: str | None) -> list[Path]:
@@ -187,7 +185,7 @@ def design(args: Namespace) -> None:
         "mu_change": [float(row.mu) for row in rows],
     }
     table = Table("design", [scene_inputs(scene)], found.result.notes, columns)
-    write_outputs(args, table, lambda picture: design_figure(found, picture))
+    write_outputs(args, table, partial(design_figure, found))
 
 
 def _cell(found: float | None) -> float | str:

@@ -75,12 +75,8 @@ def read_declared(
     _check_declared(columns, units, wanted, temperatures is not None)
     by_file = None if temperatures is None else vector(temperatures, "temperatures")
     if by_file is not None and by_file.size != len(files):
-        raise InvalidInput(
-            Argument("temperatures"),
-            f" ({by_file.size}) and ",
-            Argument("paths"),
-            f" ({len(files)}) must have equal length",
-        )
+        sizes = f" ({by_file.size}) and ", Argument("paths"), f" ({len(files)})"
+        raise InvalidInput(Argument("temperatures"), *sizes, " must have equal length")
     tables = []
     for at, file in enumerate(files):
         table = read_columns(file, columns, {name: _KINDS.get(name, name) for name in columns})

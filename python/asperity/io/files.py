@@ -111,11 +111,9 @@ def check_directory(directory: Path, names: Iterable[str], *, force: bool) -> No
             pass
     taken = [name for name in names if os.path.lexists(directory / name)]
     if taken and not force:
-        raise InvalidInput(
-            f"holds {', '.join(taken)} already; choose another --output, or replace them with "
-            "--force",
-            where=FilePath(directory),
-        )
+        held = f"holds {', '.join(taken)} already"
+        problem = f"{held}; choose another --output, or replace them with --force"
+        raise InvalidInput(problem, where=FilePath(directory))
     for name in taken:
         check_output(directory / name)
 

@@ -65,9 +65,8 @@ def _plain(unit: str) -> str:
 def surface_of(heights: NDArray[Any], metres: float, pixel_size: PixelSize) -> Scan:
     """The map or line scan of heights in units of `metres`; float32 stays float32."""
     if heights.ndim not in (1, 2):
-        raise must_have(
-            "heights", "2 (a map) or 1 (a line scan)", f" has {heights.ndim} dimensions"
-        )
+        dimensions = f" has {heights.ndim} dimensions"
+        raise must_have("heights", "2 (a map) or 1 (a line scan)", dimensions)
     if metres != 1:
         kept = heights.dtype.kind == "f" and heights.dtype.itemsize == 4
         real = np.dtype(np.float32 if kept else np.float64)
@@ -244,12 +243,8 @@ def check_equal_distances(positions: NDArray[Any]) -> None:
     fitted = np.mean(positions) + count * (count @ positions) / (count @ count)
     strayed = float(np.max(np.abs(positions - fitted)))
     if not strayed <= max(_UNEVEN * step, _ROUNDED * _last_digit(positions, step)):
-        raise must_be(
-            "",
-            "equally spaced",
-            f"holds a line scan whose points stray by up to {strayed / step:.3g} of their mean "
-            "distance",
-        )
+        by = f"up to {strayed / step:.3g} of their mean distance"
+        raise must_be("", "equally spaced", f"holds a line scan whose points stray by {by}")
 
 
 def _last_digit(positions: NDArray[Any], step: float) -> float:

@@ -11,7 +11,7 @@ from asperity.base.diagnostics import InvalidInput, must_be
 from asperity.base.table import imported
 from asperity.io import plausible
 from asperity.io.files import check_file
-from asperity.io.instrument import PixelSize, brief, check_channel, checked_unit, understood
+from asperity.io.instrument import PixelSize, check_channel, checked_unit, understood
 from asperity.io.read_surface import required
 from asperity.tiles.source import Source, source_of
 
@@ -51,10 +51,8 @@ def _npy(path: Path, channel: int) -> Any:
 
 def _zarr(path: Path, channel: int) -> Any:
     zarr = imported("zarr", "sweep")
-    try:
+    with understood("not a Zarr array or group"):
         opened = zarr.open(path, mode="r")
-    except Exception as error:
-        raise InvalidInput(f"not a Zarr array or group: {brief(error)}") from error
     if not isinstance(opened, zarr.Group):
         check_channel(channel, 1)
         return opened

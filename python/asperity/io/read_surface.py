@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity.base.arguments import path_of, reading
-from asperity.base.diagnostics import Argument, InvalidInput, must_be, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, must_be
 from asperity.io import plausible
 from asperity.io.archive import Archive, read_array
 from asperity.io.files import check_file
@@ -21,6 +21,7 @@ from asperity.io.instrument import (
     brief,
     check_channel,
     checked_unit,
+    left_out,
     read_container,
     read_instrument,
     surface_of,
@@ -110,14 +111,10 @@ def read_surface(
 def _read(path: Path, channel: int, pixel_size: PixelSize | None, unit: str | None) -> Scan:
     suffix = path.suffix.lower()
     if suffix == ".toml":
-        raise must_be(
-            "",
-            "a scan (.npy, .npz, .csv, .txt or the file of an instrument)",
-            "is a scene, not a surface",
-        )
+        allowed = "a scan (.npy, .npz, .csv, .txt or the file of an instrument)"
+        raise must_be("", allowed, "is a scene, not a surface")
     if suffix == ".zip":
-        if pixel_size is not None:
-            raise refusal("pixel_size", pixel_size, "left out, the file states its own")
+        left_out("pixel_size", pixel_size)
         return read_container(path, channel, unit)
     if suffix in _TEXT:
         return _read_text(path, channel, pixel_size, unit)
@@ -129,12 +126,11 @@ def _read(path: Path, channel: int, pixel_size: PixelSize | None, unit: str | No
 
 def required(path: Path, pixel_size: PixelSize | None, unit: str | None) -> tuple[float, PixelSize]:
     """Metres per unit and pixel size, which files of numbers alone do not state."""
+    problem = f" is missing: a {path.suffix} file does not state "
     if pixel_size is None:
-        problem = f"a {path.suffix} file does not state the distance of its points [m]"
-        raise InvalidInput(Argument("pixel_size"), f" is missing: {problem}")
+        raise InvalidInput(Argument("pixel_size"), f"{problem}the distance of its points [m]")
     if unit is None:
-        problem = f"a {path.suffix} file does not state the unit of its heights"
-        raise InvalidInput(Argument("unit"), f" is missing: {problem}")
+        raise InvalidInput(Argument("unit"), f"{problem}the unit of its heights")
     return METRES[unit], pixel_size
 
 
