@@ -58,6 +58,11 @@ _CHECKS: dict[Any, Callable[[Any, str], Any]] = {
 }
 
 
+def key_of(name: str, unit: str) -> str:
+    """Return a name as files have it, which ends in the unit."""
+    return "_".join(filter(None, (name.lower(), _ENDS.get(unit, ""))))
+
+
 @dataclass(frozen=True)
 class Parameter:
     """What is declared of one parameter."""
@@ -80,8 +85,7 @@ class Parameter:
     @property
     def key(self) -> str:
         """Its key in scenes, which ends in its unit."""
-        end = _ENDS.get(self.si_unit, "")
-        return "_".join(filter(None, (self.key_name or self.name, end)))
+        return key_of(self.key_name or self.name, self.si_unit)
 
     @property
     def choices(self) -> tuple[Any, ...]:

@@ -9,6 +9,7 @@ import numpy as np
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
 from asperity.base.diagnostics import InvalidInput, NotConverged, Note, fatal_first, refusal
+from asperity.base.parameters import parameters
 from asperity.cli.friction_commands import check_outputs, write_outputs
 from asperity.cli.options import flags, typed_options
 from asperity.dma import MasterCurveBuild, build_master_curve
@@ -18,9 +19,10 @@ from asperity.io.files import refuse_overwrite, write_files
 from asperity.io.prony_input import prony_input
 from asperity.io.read_dma import read_isotherms
 from asperity.io.read_shift_factors import read_shift_factors
-from asperity.io.table import Table
+from asperity.io.table import Table, columns_of
 from asperity.plot import rubber as plot_rubber
 from asperity.prony_fit import PronyFit
+from asperity.rubber import PronySeries
 from asperity.scene.celsius import all_in_celsius
 from asperity.scene.rubber import quiet_prony
 from asperity.shift_factors import WlfFit
@@ -67,21 +69,12 @@ def rubber(args: Namespace) -> None:
         "found": facts,
     }
     if prony is not None:
-        inputs["prony"] = {
-            "equilibrium_modulus_pa": prony.equilibrium_modulus,
-            "moduli_pa": prony.moduli.tolist(),
-            "relaxation_times_s": prony.relaxation_times.tolist(),
-        }
-    curve = build.master_curve
-    columns = {
-        "angular_frequency_rad_s": curve.angular_frequency,
-        "storage_modulus_pa": curve.storage_modulus,
-        "loss_modulus_pa": curve.loss_modulus,
-    }
+        of_series = parameters(PronySeries)
+        inputs["prony"] = {p.key: np.asarray(getattr(prony, p.name)).tolist() for p in of_series}
     celsius = (args.units or {}).get("temperature") == "C"
     notes = [note.said(all_in_celsius) for note in notes] if celsius else notes
     inputs["note_lines"] = [note.line for note in notes]  # for a scene that reads the curve
-    table = Table("rubber", [inputs], notes, columns)
+    table = Table("rubber", [inputs], notes, columns_of(build.master_curve))
     beside: dict[Path, bytes | str] = {}
     if args.write_shift is not None:
         of_build = {"reference_temperature_k": build.reference_temperature}
@@ -110,8 +103,7 @@ def _prony_text(
         "reference_temperature_k": build.reference_temperature,
         "equilibrium_modulus_pa": prony.equilibrium_modulus,
     }
-    columns = {"relaxation_time_s": prony.relaxation_times, "modulus_pa": prony.moduli}
-    return Table("rubber", [facts], prony.notes, columns).csv()
+    return Table("rubber", [facts], prony.notes, columns_of(prony)).csv()
 
 
 def _fits(build: MasterCurveBuild) -> tuple[WlfFit | None, PronyFit | None, list[Note]]:
@@ -172,10 +164,5 @@ def _of_points(build: MasterCurveBuild, prony: PronyFit) -> dict[str, float]:
 
 
 def _isotherms(build: MasterCurveBuild) -> dict[str, list[float]]:
-    rounded = np.round(build.log10_a_T, 6)
-    return {
-        "temperature_k": build.temperature.tolist(),
-        "log10_a_t": rounded.tolist(),
-        "standard_deviation": build.standard_deviation.tolist(),
-        "b_t": build.b_T.tolist(),
-    }
+    columns = columns_of(build) | {"log10_a_t": np.round(build.log10_a_T, 6)}
+    return {name: column.tolist() for name, column in columns.items()}

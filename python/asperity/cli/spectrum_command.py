@@ -20,7 +20,7 @@ from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.files import refuse_overwrite
 from asperity.io.open_map import open_map
-from asperity.io.table import Table
+from asperity.io.table import Table, columns_of
 from asperity.measured_spectrum import power_spectrum_of
 from asperity.plot import surface as plot_surface
 from asperity.scene import scan
@@ -197,16 +197,11 @@ def _transform(args: Namespace) -> dict[str, Any]:
 
 
 def _rows(measured: TabulatedSpectrum) -> dict[str, Any]:
-    columns: dict[str, Any] = {
-        "wavenumber_per_m": measured.wavenumber,
-        "density_m4": measured.density,
-    }
-    if measured.count is not None and measured.standard_error is not None:
-        columns["standard_error_m4"] = measured.standard_error
-        columns["count"] = np.rint(measured.count).astype(int)
-    if measured.flag is not None:
-        columns["flag"] = measured.flag
-    return columns
+    columns = columns_of(measured)
+    if "count" in columns:
+        columns["count"] = np.rint(columns["count"]).astype(int)
+    order = ("wavenumber_per_m", "density_m4", "standard_error_m4", "count", "flag")
+    return {name: columns[name] for name in order if name in columns}
 
 
 def _fitted(fit: SelfAffineFit) -> dict[str, float]:

@@ -8,6 +8,8 @@ import numpy as np
 
 from asperity.base.arguments import Array, reading
 from asperity.base.diagnostics import Argument, InvalidInput, Note
+from asperity.base.parameters import key_of
+from asperity.base.table import declared_columns
 from asperity.io import plausible
 from asperity.io.columns import Columns, Names
 from asperity.io.declared import file_of, read_declared, young
@@ -16,16 +18,10 @@ from asperity.io.table import notes_in
 from asperity.rubber import Extrapolation, MasterCurve
 from asperity.shift_factors import HasShiftFactors, TemperatureShift, temperature_shift_core
 
-_OWN = {
-    "frequency": "angular_frequency_rad_s",
-    "storage": "storage_modulus_pa",
-    "loss": "loss_modulus_pa",
-}
-_OF_FRAME = {  # as `MasterCurve.to_dataframe` has them
-    "frequency": "angular_frequency",
-    "storage": "storage_modulus",
-    "loss": "loss_modulus",
-}
+_DECLARED = declared_columns(MasterCurve).items()
+_ROWS = ("frequency", "storage", "loss")
+_OF_FRAME = {ours: name for ours, (name, _) in zip(_ROWS, _DECLARED, strict=True)}
+_OWN = {ours: key_of(name, one[0]) for ours, (name, one) in zip(_ROWS, _DECLARED, strict=True)}
 _TOGETHER = 1.01  # of two frequencies that are one, as in an isotherm
 _OF_RAMP = 10**0.05  # the same of rows that are reduced by a_T
 
@@ -86,7 +82,7 @@ def read_master_curve(
     factor = young(modulus or "E", poisson_ratio)
     known = units or {"frequency": "rad/s", "modulus": "Pa"}
     try:
-        wanted = (*_OWN,) if shift is None else (*_OWN, "temperature")
+        wanted = _ROWS if shift is None else (*_ROWS, "temperature")
         reduced = shift is None
         (table,) = read_declared([file], columns or own, known, wanted, factor, reduced=reduced)
     except InvalidInput as error:
@@ -108,7 +104,7 @@ def _log10_a_t(shift: TemperatureShift, temperature: Array) -> Any:
 
 
 def _curve(table: Columns, together: float, extrapolation: Extrapolation | None) -> MasterCurve:
-    rows = np.array([table.values[name] for name in _OWN])
+    rows = np.array([table.values[name] for name in _ROWS])
     rows = rows[:, np.argsort(rows[0], kind="stable")]
     starts, last = [], 0.0
     for at, frequency in enumerate(rows[0]):

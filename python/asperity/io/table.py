@@ -15,7 +15,7 @@ import numpy as np
 
 from asperity._core import __version__
 from asperity.base.diagnostics import Note, fatal_first, must_be
-from asperity.base.parameters import without_unit
+from asperity.base.parameters import key_of, without_unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +58,13 @@ class Table:
             },
         }
         return json_text(content, indent=1, allow_nan=False) + "\n"
+
+
+def columns_of(measured: Any) -> dict[str, Any]:
+    """The columns of a measured object by their names in files."""
+    columns = measured._columns()
+    every = {**columns.coordinates, **columns.variables}
+    return {key_of(name, one.unit): one.values for name, one in every.items()}
 
 
 def inputs_in(path: Path) -> dict[str, str]:
