@@ -6,7 +6,7 @@ from typing import Any
 
 from nicegui import ui
 
-from asperity.app.parts import Picture, part
+from asperity.app.parts import Picture, menu, part
 from asperity.app.state import State, Take
 from asperity.app.worker import Shows, Worker
 
@@ -45,9 +45,7 @@ class AlternativesPart(TakesFiles):
         self._drawn: object = None
         title = self.table.capitalize()
         with part(title, f"{self.table}-title"):
-            how: Any = {"value": self._chosen, "label": title, "on_change": self._choose}
-            self._choice = ui.select(self._names, **how)
-            self._choice.props("dense outlined").classes("w-full")
+            self._choice = menu(title, self._names, self._chosen, self._choose)
             self._add_fields()
             self._add_problem()
             self._facts = ui.label("").classes("soft")

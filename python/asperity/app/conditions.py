@@ -7,11 +7,12 @@ from typing import Any
 from nicegui import ui
 
 from asperity.app.loaded import PLAIN, offered
-from asperity.app.parts import Changed, Quantity, controls, part
+from asperity.app.parts import Changed, Quantity, controls, menu, part, slider
 from asperity.app.state import State
 from asperity.app.worker import Shows, Worker
 from asperity.base.diagnostics import Error
-from asperity.base.quantities import ZERO_CELSIUS
+from asperity.base.parameters import Parameter
+from asperity.base.quantities import PRESSURE, ZERO_CELSIUS
 from asperity.scene.model import Scene
 from asperity.scene.parts import ADHESION, CORRECTIONS, HEATING, KINDS
 
@@ -23,11 +24,8 @@ class CorrectionFields:
 
     def __init__(self, state: State, worker: Worker, setter: Callable[[str, str], Changed]) -> None:
         self._state, self._worker, self._set = state, worker, setter
-        kind = self._kind
-        self._menu = ui.select(
-            self._named(PLAIN), value=kind, label="Correction", on_change=self._chosen
-        )
-        self._menu.props("dense outlined").classes("w-full mt-2")
+        self._menu = menu("Correction", self._named(PLAIN), self._kind, self._chosen)
+        self._menu.classes("mt-2")
         self._fields = ui.element("div").classes("w-full flex flex-col gap-2")
         self._ask()
 
@@ -83,13 +81,10 @@ class ConditionsPart(Shows):
     def refresh(self) -> None:
         self._inside.clear()
         with self._inside:
-            set_pressure = self._set("conditions", "pressure_pa")
-            Quantity(
-                "Pressure [MPa]",
-                self._state.conditions["pressure_pa"] / 1e6,
-                (0.001, 10),
-                lambda value: set_pressure(float(f"{value * 1e6:.12g}")),
-                logarithmic=True,
+            slider(
+                Parameter("pressure", float, 0.0, PRESSURE, usual=(1e3, 1e7), shown_unit="MPa"),
+                self._state.conditions["pressure_pa"],
+                self._set("conditions", "pressure_pa"),
             )
             self._temperature()
             self._velocities()

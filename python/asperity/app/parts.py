@@ -65,6 +65,11 @@ def redraw(drawn: ui.echart, options: Options, name: str) -> None:
     drawn.update()
 
 
+def menu(label: str, options: Any, value: Any, changed: Any = None) -> ui.select:
+    made = ui.select(options, value=value, label=label, on_change=changed)
+    return made.props("dense outlined").classes("w-full")
+
+
 class Picture:
     """One of the package's own, drawn in a thread: the last that was asked for, once no other is.
     It stands in a column of the page unless it is `wide`."""
@@ -201,18 +206,17 @@ def controls(
         if one.choices:
             _menu(one, value, changes(key))
         else:
-            _slider(one, value, changes(key))
+            slider(one, value, changes(key))
 
 
 def _menu(one: Parameter, value: Any, changed: Changed) -> None:
     async def chosen(event: Any) -> None:
         await changed(event.value)
 
-    menu = ui.select(list(one.usual), value=value, label=_label(one), on_change=chosen)
-    menu.props("dense outlined").classes("w-full")
+    menu(_label(one), list(one.usual), value, chosen)
 
 
-def _slider(one: Parameter, value: float, changed: Changed) -> None:
+def slider(one: Parameter, value: float, changed: Changed) -> None:
     factor = 1.0
     if one.quantity is not None and one.shown_unit:
         factor, _ = one.quantity.units[one.shown_unit]

@@ -11,7 +11,7 @@ from nicegui import background_tasks, ui
 
 from asperity.app import downloads
 from asperity.app.charts import Options, contributions_chart, friction_chart
-from asperity.app.parts import Picture, chart, part, redraw, redraw_series
+from asperity.app.parts import Picture, chart, menu, part, redraw, redraw_series
 from asperity.app.state import State
 from asperity.app.words import allowed_velocities, in_one_line
 from asperity.app.worker import Found, Shows, Worker, contributions, in_thread
@@ -86,8 +86,8 @@ class ResultPart(Shows):
                 self._notes = ui.html("", sanitize=False, tag="ul").classes("list-disc pl-5")
             opened = ui.expansion("Which roughness makes the friction", on_value_change=self._seen)
             with opened.classes("w-full").props("dense") as self._origin:
-                self._velocity = ui.select([], label="At velocity [m/s]", on_change=self._chosen)
-                self._velocity.props("dense outlined").classes("w-48")
+                self._velocity = menu("At velocity [m/s]", [], None, self._chosen)
+                self._velocity.classes("w-48", remove="w-full")
                 self._shares = chart({}, "Contributions by wavenumber")
             self._design = DesignPart(worker)
             with ui.expansion("Numbers").classes("w-full").props("dense"):

@@ -7,6 +7,7 @@ from nicegui import ui
 
 from asperity.app.alternatives import AlternativesPart
 from asperity.app.guess import QUANTITIES, UNITS
+from asperity.app.parts import menu
 from asperity.app.upload import Upload
 from asperity.base.quantities import temperature_text
 from asperity.plot.scene import rubber_figure
@@ -61,21 +62,18 @@ class RubberPart(AlternativesPart):
                     names = {name: name for name in guess.names}
                     if quantity == "temperature":
                         names, value = {"": _NO_TEMPERATURE, **names}, value or ""
-                    menu = ui.select(names, value=value, label=_SAID[quantity])
-                    chosen[quantity] = menu.props("dense outlined")
+                    chosen[quantity] = menu(_SAID[quantity], names, value)
                 for kind, unit in guess.units.items():
                     named = {one: _CELSIUS.get(one, one) for one in UNITS[kind]}
-                    menu = ui.select(named, value=unit, label=_UNIT_OF[kind])
-                    units[kind] = menu.props("dense outlined")
+                    units[kind] = menu(_UNIT_OF[kind], named, unit)
                 kinds = {"E": "E, Young's", "G": "G, shear"}
-                modulus = ui.select(kinds, value=guess.modulus, label="The moduli are")
-                modulus.props("dense outlined")
+                modulus = menu("The moduli are", kinds, guess.modulus)
             prony = ui.checkbox("Fit a Prony series to sweeps").classes("mr-3")
             beyond = ui.checkbox("Go on beyond what was measured").classes("mr-3")
 
             async def take() -> None:
-                columns = {name: menu.value or None for name, menu in chosen.items()}
-                said = {"units": {name: menu.value for name, menu in units.items()}}
+                columns = {name: one.value or None for name, one in chosen.items()}
+                said = {"units": {name: one.value for name, one in units.items()}}
                 said |= {"modulus": modulus.value, "prony": prony.value, "beyond": beyond.value}
                 await self._use(files, {"columns": columns, **said})
 

@@ -7,7 +7,7 @@ from typing import Any
 from nicegui import ui
 
 from asperity.app.alternatives import AlternativesPart
-from asperity.app.parts import Changed, Quantity, controls
+from asperity.app.parts import Changed, Quantity, controls, menu
 from asperity.app.upload import Upload
 from asperity.base.arguments import brief
 from asperity.plot.scene import surface_figure
@@ -39,14 +39,17 @@ class SurfacePart(AlternativesPart):
         with ui.expansion("How the scan is read").classes("w-full").props("dense"):
             micrometres = "Pixel size [µm]: one number, or dy, dx"
             self._field("pixel_size_m", micrometres, "empty where the file states it", _pixel_size)
-            self._menu("unit", "Unit of the heights", _UNITS, "")
-            self._menu("detrend", "The scan is", _DETREND, SURFACE["detrend"].default)
+            menu("Unit of the heights", _UNITS, "", self._takes("unit"))
+            detrend = SURFACE["detrend"].default
+            menu("The scan is", _DETREND, detrend, self._takes("detrend"))
             for key, label, empty in _ENDS:
                 self._field(key, label, f"empty: {empty}", float)
             share = "of the points: 10 where it is empty"
             self._field("max_dropouts", "Most drop-outs [%]", share, _share)
-            self._switch("fit", "Take the self-affine fit instead of the rings", "self-affine")
-            self._switch("directional", "Keep the directions of its roughness", True)
+            fit = self._takes("fit", "self-affine")
+            ui.checkbox("Take the self-affine fit instead of the rings", on_change=fit)
+            directional = self._takes("directional", True)
+            ui.checkbox("Keep the directions of its roughness", on_change=directional)
 
     def _field(self, key: str, label: str, hint: str, read: Callable[[str], Any]) -> None:
         """A field for a number of the scan, which is as `hint` says where it is empty."""
@@ -62,13 +65,6 @@ class SurfacePart(AlternativesPart):
 
         shown = ui.input(label, on_change=changed).classes("w-full")
         shown.props(f'dense outlined debounce=500 hint="{hint}"')
-
-    def _menu(self, key: str, label: str, options: dict[str, str], value: str) -> None:
-        menu = ui.select(options, value=value, label=label, on_change=self._takes(key))
-        menu.props("dense outlined").classes("w-full")
-
-    def _switch(self, key: str, label: str, value: Any) -> None:
-        ui.checkbox(label, on_change=self._takes(key, value))
 
     def _takes(self, key: str, value: Any = None) -> Callable[[Any], Awaitable[None]]:
         """What is called with a choice, for which `value` stands where it is given."""
