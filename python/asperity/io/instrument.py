@@ -87,6 +87,14 @@ def left_out(name: str, given: Any, source: str = "file") -> None:
         raise refusal(name, given, f"left out, the {source} states its own", text=f"{given!r}")
 
 
+def one_states(name: str, given: Any, stated: Any, source: str = "file") -> None:
+    """Refuse an argument that what is read states itself, and one that nobody states."""
+    if stated is not None:
+        left_out(name, given, source)
+    elif given is None:
+        raise InvalidInput(Argument(name), f" is missing: the {source} does not state it")
+
+
 def check_channel(channel: int, available: int) -> None:
     if not (isinstance(channel, int | np.integer) and 0 <= channel < available):
         allowed = "0, the only one" if available == 1 else f"in 0..{available - 1}"
@@ -183,10 +191,7 @@ def read_container(path: Path, channel: int, unit: str | None) -> Scan:
             topography = scans[channel]()
         finally:
             gc.collect()  # the library leaves files open, in circles of references
-    if topography.unit is None and unit is None:
-        raise InvalidInput(Argument("unit"), " is missing: the file does not state it")
-    if topography.unit is not None:
-        left_out("unit", unit)
+    one_states("unit", unit, topography.unit)
     return of_topography(topography, None if unit is None else METRES[unit], None)
 
 
@@ -198,14 +203,9 @@ def _read_channel(
     if not info.is_height_channel:
         kinds = ", ".join(f"{c.index}: {c.data_kind.value}" for c in reader.channels)
         raise refusal("channel", channel, f"one of heights ({kinds})", text=f"{channel}")
-    for name, argument, stated in (
-        ("unit", unit, info.unit),
-        ("pixel_size", pixel_size, None if pixel_size and _coarse(info) else info.physical_sizes),
-    ):
-        if stated is not None:
-            left_out(name, argument)
-        elif argument is None:
-            raise InvalidInput(Argument(name), " is missing: the file does not state it")
+    one_states("unit", unit, info.unit)
+    is_coarse = pixel_size is not None and _coarse(info)
+    one_states("pixel_size", pixel_size, None if is_coarse else info.physical_sizes)
     unsized = info.physical_sizes is None  # SurfaceTopography wants some size
     sizes = {"physical_sizes": info.nb_grid_pts} if unsized else {}
     topography = reader.topography(channel_index=channel, **sizes)
