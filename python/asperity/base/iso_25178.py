@@ -99,18 +99,14 @@ def _hills(z: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 def _saddles(z: Array, hills: NDArray[np.intp]) -> list[tuple[float, int, int]]:
     """The highest pass between each two hills that touch, from the highest down."""
     ny, nx = z.shape
-    passes: dict[tuple[int, int], float] = {}
+    passes = []
     for dy, dx in _BESIDE:
         here = np.s_[0 : ny - dy, max(0, -dx) : nx - max(0, dx)]
         there = np.s_[dy:ny, max(0, dx) : nx - max(0, -dx)]
-        a, b = hills[here].ravel(), hills[there].ravel()
-        apart = a != b
-        low, high = np.minimum(a, b)[apart], np.maximum(a, b)[apart]
-        height = np.minimum(z[here], z[there]).ravel()[apart]
-        order = np.argsort(height, kind="stable")
-        passes_here = dict(
-            zip(zip(low[order], high[order], strict=True), height[order], strict=True)
-        )
-        for pair, one in passes_here.items():
-            passes[pair] = max(passes.get(pair, -np.inf), float(one))
-    return sorted(((h, int(a), int(b)) for (a, b), h in passes.items()), reverse=True)
+        pair = np.sort(np.stack([hills[here].ravel(), hills[there].ravel()]), axis=0)
+        height = np.minimum(z[here], z[there]).ravel()
+        passes.append(np.stack([height, *pair])[:, pair[0] != pair[1]])
+    every = np.concatenate(passes, axis=1)
+    every = every[:, np.lexsort(every[::-1])[::-1]]
+    first = np.unique(every[1] * z.size + every[2], return_index=True)[1]
+    return [(h, int(a), int(b)) for h, a, b in every[:, np.sort(first)].T.tolist()]

@@ -61,7 +61,7 @@ class Fact(NamedTuple):
 
     name: str
     value: str
-    where: str
+    where: str = ""
 
 
 @dataclass(frozen=True)
@@ -136,25 +136,22 @@ def _facts(scene: Scene, result: SceneFriction) -> list[Fact]:
     at = f"at {scene.velocity[k]:.3g} m/s, {pressure_text(float(scene.pressure[i]))}"
     at += "" if scene.direction_deg is None else f", towards {scene.direction_deg:.4g}°"
     facts = [Fact("largest mu", f"{result.mu[i, k]:.4g}", at)]
-    facts.append(Fact("of which hysteresis", f"{result.hysteresis[i, k]:.4g}", ""))
+    facts.append(Fact("of which hysteresis", f"{result.hysteresis[i, k]:.4g}"))
     if scene.knows_directions:
         across = result.lateral[i, k]
         seen = abs(across) > result.error_estimate[i, k]
-        facts.append(Fact("force across there, over load", f"{across:.4g}" if seen else "0", ""))
+        facts.append(Fact("force across there, over load", f"{across:.4g}" if seen else "0"))
     area = float(result.contact_area[i, k])
-    facts.append(Fact("contact there, A/A0", f"{100 * area:.3g} %", ""))
+    facts.append(Fact("contact there, A/A0", f"{100 * area:.3g} %"))
     if result.cold is not None and scene.temperature is not None:
         rise = result.temperature - scene.temperature
         i, k = np.unravel_index(int(rise.argmax()), rise.shape)
-        facts.append(
-            Fact("largest rise by heat", f"{rise[i, k]:.3g} K", f"at {scene.velocity[k]:.3g} m/s")
-        )
+        at = f"at {scene.velocity[k]:.3g} m/s"
+        facts.append(Fact("largest rise by heat", f"{rise[i, k]:.3g} K", at))
     solved = solved_contacts(scene)
     if solved is not None:
         facts.append(Fact("contacts of the scan", f"{solved[0]}", f"solved, {solved[1]}"))
-    slope = scene.spectrum.rms_slope
-    facts.append(Fact("rms slope that is used", f"{slope:.3g}", ""))
-    return facts
+    return [*facts, Fact("rms slope that is used", f"{scene.spectrum.rms_slope:.3g}")]
 
 
 def input_rows(scene: Scene) -> list[tuple[str, str]]:

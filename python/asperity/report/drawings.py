@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -57,10 +58,9 @@ class Drawings:
         return self._markup(text)
 
     def friction(self, scenes: Sequence[Scene], curves: Sequence[SceneFriction]) -> Figure:
-        spans = [f"from {c.mu.min():.3g} to {c.mu.max():.3g}" for c in curves]
         names = [
-            f"{printable(Path(scene.path.name))}: mu {span}"
-            for scene, span in zip(scenes, spans, strict=True)
+            f"{printable(Path(s.path.name))}: mu from {c.mu.min():.3g} to {c.mu.max():.3g}"
+            for s, c in zip(scenes, curves, strict=True)
         ]
         heat = "; with heat also mu without it and the rise of the temperature"
         heated = any(scene.heating is not None for scene in scenes)
@@ -69,12 +69,9 @@ class Drawings:
             "inputs; hatched: the error of the model, where it is known" + heat * heated + "."
         )
         text = f"Friction coefficient over velocity. {'; '.join(names)}."
-        return self._figure(
-            lambda: plot_friction.friction_figure(scenes, curves, _SVG),
-            text,
-            caption,
-            1 + heated + any(s.heating is not None and s.velocity.size > 1 for s in scenes),
-        )
+        profiled = any(s.heating is not None and s.velocity.size > 1 for s in scenes)
+        draw = partial(plot_friction.friction_figure, scenes, curves, _SVG)
+        return self._figure(draw, text, caption, 1 + heated + profiled)
 
     def of_file(self, scene: Scene, result: SceneFriction, name: str) -> dict[str, Figure | None]:
         """What a file is made of, and what makes its friction."""
@@ -90,12 +87,9 @@ class Drawings:
             f"{what}. Grey: the band that is used, {band}, with an rms height of "
             f"{1e6 * spectrum.rms_height:.4g} um and an rms slope of {spectrum.rms_slope:.3g}."
         )
-        return self._figure(
-            lambda: plot_scene.surface_figure(scene, _SVG),
-            f"Surface of {name}. {caption}",
-            caption,
-            1 if scene.surface.scan is None else 2,
-        )
+        draw = partial(plot_scene.surface_figure, scene, _SVG)
+        panels = 1 if scene.surface.scan is None else 2
+        return self._figure(draw, f"Surface of {name}. {caption}", caption, panels)
 
     def _rubber(self, scene: Scene, name: str) -> Figure:
         built = scene.built_rubber
@@ -106,12 +100,9 @@ class Drawings:
             f"Storage and loss modulus of the rubber{at}{made}. Grey: the frequencies v q that "
             f"sliding at {low:.3g} to {high:.3g} m/s asks for."
         )
-        return self._figure(
-            lambda: plot_scene.rubber_figure(scene, _SVG),
-            f"Rubber of {name}. {caption}",
-            caption,
-            1 if built.build is None else 3,
-        )
+        draw = partial(plot_scene.rubber_figure, scene, _SVG)
+        panels = 1 if built.build is None else 3
+        return self._figure(draw, f"Rubber of {name}. {caption}", caption, panels)
 
     def _design(self, scene: Scene, result: SceneFriction, name: str) -> Figure | None:
         """What 10 % more of each part is worth where mu is largest; None where nothing tells."""
@@ -125,9 +116,8 @@ class Drawings:
             f"reduced frequency{of_dma}, and of C(q) by decade of wavelength. More of the others: "
             f"{worth_text(found)}."
         )
-        return self._figure(
-            lambda: design_figure(found, _SVG), f"Design of {name}. {caption}", caption, 2
-        )
+        draw = partial(design_figure, found, _SVG)
+        return self._figure(draw, f"Design of {name}. {caption}", caption, 2)
 
     def _figure(self, draw: Callable[[], bytes], text: str, caption: str, panels: int) -> Figure:
         from matplotlib import rc_context

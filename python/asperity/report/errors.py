@@ -37,25 +37,20 @@ def _numerical(scene: Scene, result: SceneFriction) -> Told:
 
 def _of_inputs(scene: Scene, result: SceneFriction) -> Told:
     if result.band is None:
-        return Told(
-            "the inputs",
-            "not known",
-            "neither the surface nor the rubber has standard errors: they are known of scans and "
-            "of isotherms",
-        )
+        problem = "neither the surface nor the rubber has standard errors"
+        meaning = f"{problem}: they are known of scans and of isotherms"
+        return Told("the inputs", "not known", meaning)
     low, high = result.band
     known = result.mu > 0
     down = 100 * (1 - low[known] / result.mu[known]).max(initial=0)
     up = 100 * (high[known] / result.mu[known] - 1).max(initial=0)
     sampling = scene.sampling
-    return Told(
-        "the inputs",
-        f"mu is down to {percent_text(down)} lower and up to {percent_text(up)} higher",
-        f"{100 * sampling['level']:.4g} % by the slopes of mu and the standard errors of the inputs"
-        if sampling["method"] == "linear"
-        else f"{100 * sampling['level']:.4g} % of {sampling['samples']} draws of the measured "
-        f"inputs within their standard errors (seed {sampling['seed']})",
-    )
+    size = f"mu is down to {percent_text(down)} lower and up to {percent_text(up)} higher"
+    meaning = "by the slopes of mu and the standard errors of the inputs"
+    if sampling["method"] != "linear":
+        draws = f"of {sampling['samples']} draws of the measured inputs"
+        meaning = f"{draws} within their standard errors (seed {sampling['seed']})"
+    return Told("the inputs", size, f"{100 * sampling['level']:.4g} % {meaning}")
 
 
 def solved_contacts(scene: Scene) -> tuple[int, str] | None:
