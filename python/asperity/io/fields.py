@@ -218,11 +218,10 @@ def kelvin_or_celsius(
     read: Callable[[object], Any], argument: str, meaning: str
 ) -> dict[str, Field]:
     """The two keys of a temperature, of which a table has one."""
+    same = f"the same, instead of `{argument}_k`"
     return {
         f"{argument}_k": Field(read, argument, TEMPERATURE, meaning=meaning),
-        f"{argument}_c": Field(
-            read, "", TEMPERATURE, "C", meaning=f"the same, instead of `{argument}_k`"
-        ),
+        f"{argument}_c": Field(read, "", TEMPERATURE, "C", meaning=same),
     }
 
 

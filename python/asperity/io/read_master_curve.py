@@ -88,9 +88,8 @@ def read_master_curve(
     except InvalidInput as error:
         if columns is not None or error.code != "unknown-columns":
             raise
-        raise error.followed_by(
-            "; columns, units and modulus say what other tables have"
-        ) from error
+        hint = "; columns, units and modulus say what other tables have"
+        raise error.followed_by(hint) from error
     if columns is not None and shift is not None:
         table.values["frequency"] *= 10 ** _log10_a_t(shift, table.values["temperature"])
     with reading(file):

@@ -219,9 +219,8 @@ def _load_text(path: Path, begin: int = 1) -> NDArray[Any]:
             raise kind(f"line {number}: {error}") from error
         width = width or len(row)
         if len(row) != width:
-            raise InvalidInput(
-                f"line {number} has {len(row)} cells; it must have {width}, as those before it"
-            )
+            must = f"it must have {width}, as those before it"
+            raise InvalidInput(f"line {number} has {len(row)} cells; {must}")
         trailing = trailing and width > 1 and not cells[-1].strip()
         gap = blank
         values.extend(row)

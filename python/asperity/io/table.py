@@ -39,13 +39,13 @@ class Table:
         out.write(f"# columns: {units}\n")
         writer = csv.writer(out, lineterminator="\n")
         writer.writerow(self.columns)
-        writer.writerows(
-            [_digits(cell) for cell in row] for row in zip(*self.columns.values(), strict=True)
-        )
+        rows = zip(*self.columns.values(), strict=True)
+        writer.writerows([_digits(cell) for cell in row] for row in rows)
         return out.getvalue()
 
     def json(self) -> str:
         """The same content as one object; infinite numbers as the text "inf"."""
+        columns = {name: [*map(_plain, column)] for name, column in self.columns.items()}
         content = {
             "asperity": __version__,
             "command": self.command,
@@ -53,9 +53,7 @@ class Table:
             "notes": fatal_first(self.notes),
             "next_steps": [note.next_step for note in fatal_first(self.notes)],
             "units": {name: unit(name) for name in self.columns},
-            "columns": {
-                name: [_plain(cell) for cell in column] for name, column in self.columns.items()
-            },
+            "columns": columns,
         }
         return json_text(content, indent=1, allow_nan=False) + "\n"
 

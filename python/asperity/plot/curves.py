@@ -51,12 +51,8 @@ def area_figure(
     if dashed.size > 1:
         for value, dash in zip(dashed[dashes], _DASHES, strict=False):
             axes.plot([], [], dash, color=grey(0.3), label=dash_name(float(value)))
-    axes.set(
-        xscale="log",
-        yscale="log",
-        xlabel="Magnification $q / q_0$ [-]",
-        ylabel="Relative contact area $A / A_0$ [-]",
-    )
+    axes.set(xscale="log", yscale="log", xlabel="Magnification $q / q_0$ [-]")
+    axes.set_ylabel("Relative contact area $A / A_0$ [-]")
     _draw_distributions(right, scene, float(area[0, 0, -1]))
     some = [
         f"{drawn.size} of {sweep.size} {what}"

@@ -80,11 +80,8 @@ def scene_fit_figure(fit: SceneFit, path: Path) -> bytes:
     sides = min(fit.measured.min(), fit.mu.min()), max(fit.measured.max(), fit.mu.max())
     second.plot(sides, sides, color=grey(0.5), linewidth=0.8, zorder=0)
     second.set(xlabel="$\\mu$ as measured [-]", ylabel="$\\mu$ of the scene [-]")
-    second.set_title(
-        f"rms off {100 * fit.rms_left_out:.2g} %; the same $\\mu$ everywhere "
-        f"{100 * fit.rms_same_mu:.2g} %",
-        fontsize="small",
-    )
+    off, same = (f"{100 * one:.2g} %" for one in (fit.rms_left_out, fit.rms_same_mu))
+    second.set_title(f"rms off {off}; the same $\\mu$ everywhere {same}", fontsize="small")
     legend_outside(figure, *first.get_legend_handles_labels())
     return picture(figure, path)
 

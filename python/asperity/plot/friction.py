@@ -37,9 +37,8 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[SceneFriction], p
     curves = list(curves_of(results, names, abscissa, given, celsius=celsius))
     heated = any(np.isfinite(curve.rise).any() for curve in curves)
     profiled = next((s for s in scenes if s.heating is not None and s.velocity.size > 1), None)
-    figure, (axes, *beside) = new_figure(
-        1 + heated + (profiled is not None), polar=abscissa == DIRECTION
-    )
+    panels = 1 + heated + (profiled is not None)
+    figure, (axes, *beside) = new_figure(panels, polar=abscissa == DIRECTION)
     levels = {s.sampling["level"] for s, r in zip(scenes, results, strict=True) if r.band}
     tints = draw_friction(
         axes,

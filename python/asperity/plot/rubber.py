@@ -88,16 +88,9 @@ def _draw_master(axes: Axes, build: MasterCurveBuild, prony: PronyFit | None) ->
 
 def draw_shifts(axes: Axes, build: MasterCurveBuild, wlf: WlfFit | None, *, celsius: bool) -> None:
     zero = ZERO_CELSIUS if celsius else 0.0
-    axes.errorbar(
-        build.temperature - zero,
-        build.log10_a_T,
-        yerr=2 * build.standard_deviation,
-        fmt="o",
-        markersize=4,
-        capsize=3,
-        color=palette()[0],
-        label="measured, ± 2 standard deviations",
-    )
+    look: Any = {"fmt": "o", "markersize": 4, "capsize": 3, "color": palette()[0]}
+    deviations, label = 2 * build.standard_deviation, "measured, ± 2 standard deviations"
+    axes.errorbar(build.temperature - zero, build.log10_a_T, deviations, label=label, **look)
     if wlf is not None:
         t = np.linspace(build.temperature[0], build.temperature[-1], 200)
         d = t - wlf.reference_temperature
@@ -110,11 +103,8 @@ def draw_shifts(axes: Axes, build: MasterCurveBuild, wlf: WlfFit | None, *, cels
 
 def _draw_residual(axes: Axes, build: MasterCurveBuild, prony: PronyFit | None) -> None:
     axes.axhline(0, color=grey(0.4), linewidth=0.8)
-    axes.set(
-        xlabel="Reduced frequency $a_T\\, \\omega$ [rad/s]",
-        ylabel="Measured / fit - 1 [%]",
-        xscale="log",
-    )
+    axes.set(xscale="log", xlabel="Reduced frequency $a_T\\, \\omega$ [rad/s]")
+    axes.set_ylabel("Measured / fit - 1 [%]")
     if prony is None:
         return
     points = build.points

@@ -47,12 +47,8 @@ def _draw_used(
         label = "law beyond the fit" if fit is not None else "self-affine law"
         dashes = "--" if fit is not None else "-"
         axes.plot(q, spectrum.at(q), dashes, color=palette()[1], linewidth=1.2, label=label)
-        axes.set(
-            xscale="log",
-            yscale="log",
-            xlabel="Wavenumber $q$ [1/m]",
-            ylabel="Roughness spectrum $C(q)$ [m$^4$]",
-        )
+        axes.set(xscale="log", yscale="log", xlabel="Wavenumber $q$ [1/m]")
+        axes.set_ylabel("Roughness spectrum $C(q)$ [m$^4$]")
     used = f"used, rms slope {spectrum.rms_slope:.3g}"
     axes.axvspan(q0, q1, color=grey(0.4), alpha=0.1, linewidth=0, label=used)
     legend(axes)
@@ -74,14 +70,9 @@ def rubber_figure(scene: Scene, path: Path) -> bytes:
         axes.plot(w, points.loss_modulus, ".", ms=2.5, color=palette()[1])
     asked = scene.velocity.min() * scene.spectrum.q0, scene.velocity.max() * scene.spectrum.q1
     low, high = axes.get_xlim()
-    axes.axvspan(
-        max(float(asked[0]), low),
-        min(float(asked[1]), high),
-        color=grey(0.4),
-        alpha=0.1,
-        linewidth=0,
-        label="$v q_0$ to $v q_1$",
-    )
+    ends = max(float(asked[0]), low), min(float(asked[1]), high)
+    label = "$v q_0$ to $v q_1$"
+    axes.axvspan(*ends, color=grey(0.4), alpha=0.1, linewidth=0, label=label)
     axes.set_xlim(low, high)
     axes.set(xlabel="Angular frequency $\\omega$ [rad/s]", ylabel="Modulus [Pa]")
     celsius = built.values.get("units", {}).get("temperature") == "C"

@@ -79,14 +79,9 @@ def _draw_lay(axes: Axes, lay: Lay, size: NDArray[np.float64]) -> None:
     for colour, width in ((paper(), 3.5), (palette()[1], 1.8)):
         line = [x - step[0], x + step[0]], [y - step[1], y + step[1]]
         axes.plot(*line, color=colour, linewidth=width, solid_capstyle="round")
-    axes.annotate(
-        f"lay {lay.degrees:.0f}°",
-        (x + step[0], y + step[1]),
-        textcoords="offset points",
-        xytext=(4, 4),
-        fontsize="small",
-        bbox={"facecolor": paper(), "alpha": 0.8, "linewidth": 0, "boxstyle": "round,pad=0.2"},
-    )
+    box = {"facecolor": paper(), "alpha": 0.8, "linewidth": 0, "boxstyle": "round,pad=0.2"}
+    look: Any = {"xytext": (4, 4), "textcoords": "offset points", "fontsize": "small", "bbox": box}
+    axes.annotate(f"lay {lay.degrees:.0f}°", (x + step[0], y + step[1]), **look)
 
 
 def draw_spectrum(
