@@ -106,9 +106,8 @@ class ConditionsPart(Shows):
             return
 
         async def changed(value: float) -> None:
-            self._state.conditions = {
-                key: one for key, one in self._state.conditions.items() if key != "temperature_k"
-            } | {"temperature_c": value}
+            others = {k: v for k, v in self._state.conditions.items() if k != "temperature_k"}
+            self._state.conditions = {**others, "temperature_c": value}
             await self._worker.changed()
 
         Quantity("Temperature [°C]", celsius, (-60, 120), changed, step=1)

@@ -34,9 +34,8 @@ class Folder:
         held = sum(one.stat().st_size for one in self.path.iterdir())
         if len(self.shown) >= MOST_FILES or held + len(content) > MOST_TOGETHER:
             most = f"{MOST_FILES} files and {MOST_TOGETHER // 2**20} MB"
-            raise InvalidInput(
-                f"a session holds at most {most}: begin a new one", where=plain(shown)
-            )
+            problem = f"a session holds at most {most}: begin a new one"
+            raise InvalidInput(problem, where=plain(shown))
         ending = Path(shown.replace("\\", "/")).suffix[1:].lower()
         usable = ending.isascii() and ending.isalnum() and len(ending) <= _LONGEST_ENDING
         name = f"file-{next(self._numbers)}{f'.{ending}' if usable else ''}"

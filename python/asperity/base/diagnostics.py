@@ -222,22 +222,15 @@ class Note(_Diagnostic, str):
         if isinstance(next_step, str):
             next_step = (next_step,) if next_step else ()
         advice = tuple([one for one in sentence if type(one) is Advice][:1])
-        note.next_step_phrases = (
-            next_step or advice or ((kind.next_step,) if kind.next_step else ())
-        )
+        usual = (kind.next_step,) if kind.next_step else ()
+        note.next_step_phrases = next_step or advice or usual
         note.next_step = "".join(note.next_step_phrases)
         return note
 
     def _made_of(self, sentence: Sentence, where: Sentence, after: Sentence) -> Self:
-        return type(self)(
-            *sentence,
-            code=self.code,
-            severity=self.severity,
-            next_step=self.next_step_phrases,
-            effect=self.effect,
-            where=where,
-            after=after,
-        )
+        kept: Any = {name: getattr(self, name) for name in ("code", "severity", "effect")}
+        kept |= {"next_step": self.next_step_phrases, "where": where, "after": after}
+        return type(self)(*sentence, **kept)
 
     def said(self, words: Words) -> Self:
         """Return the same in words of an edge, what to do too."""
@@ -352,15 +345,8 @@ def refusal(
     argument: str, value: Any, allowed: str, *, text: str = "", where: object = ()
 ) -> InvalidInput:
     """Return the error "where: argument = value: must be allowed", `value` shown as `text`."""
-    return InvalidInput(
-        Argument(argument),
-        " = ",
-        valued(value, text),
-        MUST_BE,
-        allowed,
-        code="invalid-value",
-        where=where,
-    )
+    about = Argument(argument), " = ", valued(value, text)
+    return InvalidInput(*about, MUST_BE, allowed, code="invalid-value", where=where)
 
 
 def unfit(argument: str, value: Any, problem: str, text: str = "") -> InvalidInput:

@@ -82,9 +82,8 @@ def _export(made: FrictionMap, path: Path | None) -> dict[Path, bytes | str]:
     if path is None:
         return {}
     content, error = grid_file(made, path)
-    print_stderr(
-        f"{path}: interpolated linearly over ln p and ln v, mu is off by up to {error:.2g}\n"
-    )
+    off = f"mu is off by up to {error:.2g}"
+    print_stderr(f"{path}: interpolated linearly over ln p and ln v, {off}\n")
     return {path: content}
 
 

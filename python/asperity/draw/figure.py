@@ -42,9 +42,8 @@ def check_plot(path: Path) -> None:
     try:
         import matplotlib  # noqa: F401
     except ModuleNotFoundError as error:
-        raise InvalidInput(
-            f"pictures are drawn by matplotlib: {to_install('plot')}", where=path
-        ) from error
+        problem = f"pictures are drawn by matplotlib: {to_install('plot')}"
+        raise InvalidInput(problem, where=path) from error
 
 
 def new_figure(panels: int, *, polar: bool = False) -> tuple[Figure, Sequence[Axes]]:

@@ -92,14 +92,12 @@ def circle(turns: Any) -> Any:
     light, chroma = (0.78, 0.12) if _style.get() == "dark" else (0.62, 0.115)
     hue = 2 * np.pi * (np.asarray(turns, dtype=np.float64) + 0.7)  # blue first
     a, b = chroma * np.cos(hue), chroma * np.sin(hue)
-    cones = np.stack(
-        [
-            light + 0.3963377774 * a + 0.2158037573 * b,
-            light - 0.1055613458 * a - 0.0638541728 * b,
-            light - 0.0894841775 * a - 1.2914855480 * b,
-        ],
-        axis=-1,
-    )
+    to_cones = [
+        [0.3963377774, 0.2158037573],
+        [-0.1055613458, -0.0638541728],
+        [-0.0894841775, -1.2914855480],
+    ]
+    cones = light + np.stack([a, b], axis=-1) @ np.transpose(to_cones)
     to_rgb = [
         [4.0767416621, -3.3077115913, 0.2309699292],
         [-1.2684380046, 2.6097574011, -0.3413193965],

@@ -4,6 +4,7 @@ import json
 import os
 import re
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -78,11 +79,7 @@ def _relative(file: Path, shifts: ShiftFactors) -> ShiftFactors:
         return shifts
     text = f"log10 a_T is {off:.4g} at the reference temperature, and was taken relative to that"
     plausible.tell_again([Note(text, code="shifts-relative", where=file)])
-    return ShiftFactors(
-        reference_temperature=shifts.reference_temperature,
-        temperature=shifts.temperature,
-        log10_a_T=shifts.log10_a_T - off,
-    )
+    return replace(shifts, log10_a_T=shifts.log10_a_T - off)
 
 
 def _written_by_rubber(file: Path) -> tuple[Column, Column] | None:
@@ -108,9 +105,8 @@ def _table(file: Path) -> tuple[Column, Column]:
             break
     else:
         of_t, of_a = ["temperature_k"], ["log10_a_t"]
-    table = read_columns(
-        file, {"temperature": of_t[0], "log10_a_T": of_a[0]}, {"temperature": "temperature"}
-    )
+    names = {"temperature": of_t[0], "log10_a_T": of_a[0]}
+    table = read_columns(file, names, {"temperature": "temperature"})
     temperature, shift = table.values["temperature"], table.values["log10_a_T"]
     unit = table.units.get("temperature") or unit_in("temperature", of_t[0])
     if unit is None and np.min(temperature) >= _COLDEST:

@@ -40,15 +40,9 @@ def friction_figure(scenes: Sequence[Scene], results: Sequence[SceneFriction], p
     panels = 1 + heated + (profiled is not None)
     figure, (axes, *beside) = new_figure(panels, polar=abscissa == DIRECTION)
     levels = {s.sampling["level"] for s, r in zip(scenes, results, strict=True) if r.band}
-    tints = draw_friction(
-        axes,
-        curves,
-        abscissa,
-        celsius=celsius,
-        band="\n".join(band_text(level) for level in sorted(levels)),
-        model=_model_text(scenes),
-        bar=PRESSURE if len(scenes) == 1 else "",
-    )
+    texts = {"band": "\n".join(map(band_text, sorted(levels))), "model": _model_text(scenes)}
+    texts["bar"] = PRESSURE if len(scenes) == 1 else ""
+    tints = draw_friction(axes, curves, abscissa, celsius=celsius, **texts)
     if beside:
         _draw_rises(beside[0], curves, tints)
         label_abscissa(beside[0], abscissa, celsius=celsius)

@@ -86,9 +86,8 @@ def _roles(dataset: Any, name: str) -> list[Any]:
     left = [str(axis) for axis in dataset[name].dims]
     numbers = [axis for axis in left if dataset[axis].dtype.kind in "fiu"]
     if not numbers:
-        raise InvalidInput(
-            Argument("--plot"), ": there is no axis of numbers with two values or more to draw over"
-        )
+        problem = ": there is no axis of numbers with two values or more to draw over"
+        raise InvalidInput(Argument("--plot"), problem)
     x = "conditions.velocity_m_s" if "conditions.velocity_m_s" in numbers else numbers[-1]
     left.remove(x)
     if len(left) > 3:

@@ -78,9 +78,8 @@ def report_page(
     curves = [result for of_file in results for result in of_file]
     table = table_of(scenes, curves)
     first = _first(scenes)
-    environment = jinja.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja.StrictUndefined
-    )
+    how = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
+    environment = jinja.Environment(**how, undefined=jinja.StrictUndefined)
     date, drawn = _now(), Drawings(environment)
     with bar("pictures")([slice(i, i + 1) for i in range(1 + len(loaded))]) as each:
         steps = iter(each)
