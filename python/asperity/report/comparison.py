@@ -79,13 +79,17 @@ def _compared(
 ) -> tuple[str, Sequence[Difference]]:
     try:
         where = _points(one, other)
-        if isinstance(where, str):
-            return where, []
         first, second = _at_points(one, a, where[0]), _at_points(other, b, where[1])
+    except _ApartError as apart:
+        return f"{apart}", []
     except Error as error:
         return f"They cannot be computed at the velocities of both: {error}.", []
     anew = first is not a or second is not b
     return _told(*where, anew=anew), _differences(where[0], first, second)
+
+
+class _ApartError(Exception):
+    """Two scenes have no points in common, and why."""
 
 
 class Points(NamedTuple):
@@ -93,25 +97,19 @@ class Points(NamedTuple):
     velocity: Array  # [m/s], shape (m,)
 
 
-def _points(one: Scene, other: Scene) -> tuple[Points, Points] | str:
-    """Points of each of two scenes, by pairs; why there are none as a sentence.
+def _points(one: Scene, other: Scene) -> tuple[Points, Points]:
+    """Points of each of two scenes, by pairs.
 
     Single pressures are compared as they are: they belong to what the scenes differ by.
     """
-    velocity = _common(one.velocity, other.velocity)
-    if velocity is None:
-        spans = [f"{v.min():.3g} to {v.max():.3g} m/s" for v in (one.velocity, other.velocity)]
-        return f"The two have no velocity in common: {spans[0]}, and {spans[1]}."
+    velocity = _common(one.velocity, other.velocity, "velocity", "m/s")
     if one.pressure.size == other.pressure.size == 1:
         return Points(one.pressure, velocity), Points(other.pressure, velocity)
-    pressure = _common(one.pressure, other.pressure)
-    if pressure is None:
-        spans = [f"{p.min():.4g} to {p.max():.4g} Pa" for p in (one.pressure, other.pressure)]
-        return f"The two have no pressure in common: {spans[0]}, and {spans[1]}."
+    pressure = _common(one.pressure, other.pressure, "pressure", "Pa")
     return Points(pressure, velocity), Points(pressure, velocity)
 
 
-def _common(a: Array, b: Array) -> Array | None:
+def _common(a: Array, b: Array, name: str, unit: str) -> Array:
     """`a` where both are the same; else the entries of both where their ranges overlap."""
     if _same(a, b):
         return a
@@ -119,7 +117,8 @@ def _common(a: Array, b: Array) -> Array | None:
     both = np.sort(np.concatenate([a, b]))
     both = both[(both >= low * (1 - _SAME)) & (both <= high * (1 + _SAME))]
     if not both.size:
-        return None
+        spans = " and ".join(f"{x.min():.4g} to {x.max():.4g} {unit}" for x in (a, b))
+        raise _ApartError(f"The two have no {name} in common: {spans}.")
     both = both[np.append(True, np.diff(both) > _SAME * both[1:])]
     kept = np.linspace(0, both.size - 1, min(MOST, both.size)).round().astype(int)
     result: Array = both[kept]

@@ -2,7 +2,6 @@
 
 import platform
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib import metadata
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -15,7 +14,7 @@ from asperity.draw.figure import pressure_text
 from asperity.io.files import sha256
 from asperity.io.table import input_lines
 from asperity.report.comparison import VERDICTS, Pair, shortened
-from asperity.report.errors import Told, errors_of, solved_contacts
+from asperity.report.errors import errors_of, solved_contacts
 from asperity.report.texts import number_text, printable
 from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.results import notes_of_all, scene_inputs, table_of
@@ -64,19 +63,7 @@ class Fact(NamedTuple):
     where: str = ""
 
 
-@dataclass(frozen=True)
-class Result:
-    heading: str  # empty where a file has one temperature
-    of: str
-    facts: Sequence[Fact]
-    errors: Sequence[Told]
-    notes: str  # items of a list, as HTML
-    table_title: str
-    head: Sequence[str]
-    rows: Sequence[Sequence[str]]
-
-
-def results_of(scenes: Sequence[Scene], results: Sequence[SceneFriction]) -> list[Result]:
+def results_of(scenes: Sequence[Scene], results: Sequence[SceneFriction]) -> list[dict[str, Any]]:
     """The texts of a file's results, one for each of its temperatures."""
     of = dict(zip(scenes, results, strict=True))
     alike: dict[float | None, list[Scene]] = {}
@@ -86,22 +73,24 @@ def results_of(scenes: Sequence[Scene], results: Sequence[SceneFriction]) -> lis
     return [_result(ones, [of[one] for one in ones], several=several) for ones in alike.values()]
 
 
-def _result(scenes: Sequence[Scene], results: Sequence[SceneFriction], *, several: bool) -> Result:
+def _result(
+    scenes: Sequence[Scene], results: Sequence[SceneFriction], *, several: bool
+) -> dict[str, Any]:
     most = max(range(len(scenes)), key=lambda i: float(results[i].mu.max()))
     scene, result = scenes[most], results[most]
     at = f"{scene.temperature:.5g} K" if several else ""
     head, rows = numbers_of(scenes, results)
     shown, title = thinned(rows)
-    return Result(
-        heading=f"At {at}" if several else "",
-        of=f" at {at}" if several else "",
-        facts=_facts(scene, result),
-        errors=errors_of(scene, result),
-        notes=html_items(notes_of_all(scenes, results)),
-        table_title=f"mu and its parts{f' at {at}' if several else ''}{title}",
-        head=head,
-        rows=shown,
-    )
+    return {
+        "heading": f"At {at}" if several else "",
+        "of": f" at {at}" if several else "",
+        "facts": _facts(scene, result),
+        "errors": errors_of(scene, result),
+        "notes": html_items(notes_of_all(scenes, results)),
+        "table_title": f"mu and its parts{f' at {at}' if several else ''}{title}",
+        "head": head,
+        "rows": shown,
+    }
 
 
 def thinned(rows: Sequence[Any]) -> tuple[Sequence[Any], str]:
