@@ -73,7 +73,6 @@ class ConditionsPart(Shows):
     def __init__(self, state: State, worker: Worker) -> None:
         self._state, self._worker = state, worker
         self._switches: dict[str, ui.switch] = {}
-        self._fields: dict[str, ui.element] = {}  # of a table, shown while it is used
         with part("Conditions", "conditions-title"):
             self._inside = ui.element("div").classes("w-full flex flex-col gap-2")
         self.refresh()
@@ -142,20 +141,16 @@ class ConditionsPart(Shows):
         """A switch for a table of the scene, and the place of its fields."""
 
         async def changed(event: Any) -> None:
-            self._fields[table].set_visibility(event.value)
             if event.value == (table in self._state.used):
                 return
             self._state.use(table, event.value)
             self._unfit.set_visibility(False)
             await self._worker.changed()
 
-        used = table in self._state.used
-        self._switches[table] = ui.switch(name, value=used, on_change=changed)
-        self._switches[table].props('color="blue-9"').classes("mt-1")
+        switch = ui.switch(name, value=table in self._state.used, on_change=changed)
+        self._switches[table] = switch.props('color="blue-9"').classes("mt-1")
         fields = ui.element("div").classes("w-full flex flex-col gap-2")
-        fields.set_visibility(used)
-        self._fields[table] = fields
-        return fields
+        return fields.bind_visibility_from(switch, "value")
 
     def _set(self, table: str, key: str) -> Changed:
         async def changed(value: Any) -> None:
