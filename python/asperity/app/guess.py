@@ -8,8 +8,7 @@ from typing import Any
 
 from asperity.app.files import Folder
 from asperity.base.diagnostics import InvalidInput, must_have
-from asperity.io.column_names import cells_of, find_header, unit_in
-from asperity.io.columns import read_columns
+from asperity.io.columns import cells_of, find_header, read_columns, unit_in
 from asperity.io.read_dma import read_isotherms
 from asperity.io.source import read_source
 

@@ -1,5 +1,3 @@
 """The command line."""
 
-from asperity.cli.main import main
-
-__all__ = ["main"]
+from asperity.cli.main import main as main

@@ -13,8 +13,7 @@ from asperity.base import quantities
 from asperity.base.arguments import Array, choice, path_of, real_array
 from asperity.base.diagnostics import MUST_BE, InvalidInput, must_be
 from asperity.io import plausible
-from asperity.io.column_names import cells_of
-from asperity.io.columns import read_columns
+from asperity.io.columns import cells_of, read_columns
 from asperity.io.instrument import brief
 from asperity.io.source import read_source
 

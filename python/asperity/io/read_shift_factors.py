@@ -15,8 +15,7 @@ from asperity.base.arguments import path_of, reading
 from asperity.base.diagnostics import InvalidInput, Note, OutOfRange
 from asperity.base.quantities import ZERO_CELSIUS
 from asperity.io import plausible
-from asperity.io.column_names import cells_of, unit_in
-from asperity.io.columns import read_columns
+from asperity.io.columns import cells_of, read_columns, unit_in
 from asperity.io.files import check_file
 from asperity.io.source import read_source
 from asperity.io.table import inputs_in
