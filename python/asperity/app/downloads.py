@@ -91,7 +91,7 @@ def report_of(state: State, tell: Tell) -> Make:
                 (aside / file).write_text(text, encoding="utf-8")
             paths = [aside / file for file in texts]
             with _drawing:
-                page, _ = report_page(paths, title, _bar(tell), folder=aside)
+                page = report_page(paths, title, _bar(tell), folder=aside)
         return page.encode()
 
     return make

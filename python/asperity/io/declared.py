@@ -102,36 +102,36 @@ def read_declared(
 def _check_declared(
     columns: Names, units: Mapping[str, str], wanted: Sequence[str], by_file: bool
 ) -> None:
-    for name, declared in (("columns", columns), ("units", units)):
-        kinds = (str, int) if name == "columns" else str
-        if not isinstance(declared, Mapping) or not all(
-            isinstance(x, kinds) and not isinstance(x, bool) for x in declared.values()
-        ):
-            allowed = "of str, or of int for places" if name == "columns" else "of str"
-            raise refusal(name, declared, f"a dict {allowed}")
-        known = set(wanted) if name == "columns" else {_KINDS.get(w, w) for w in wanted}
-        if name == "columns" and by_file:
-            known.discard("temperature")
-        for key in declared:
-            if key not in known:
-                allowed = f"of {', '.join(sorted(known))}"
-                unknown = f": {brief(key)} is unknown"
-                if key == "temperature" and not by_file:
-                    unknown += " without shift"
-                raise InvalidInput(Argument(name), unknown, Must(", must be "), allowed)
-        for key in sorted(known):
-            if key not in declared:
-                alone = name == "columns" and key == "temperature"
-                hint = "; or temperatures has one for each file" if alone else ""
-                raise InvalidInput(Argument(name), f": {key!r} is missing{hint}")
+    names = {*wanted} - ({"temperature"} if by_file else set())
+    without = "" if by_file else " without shift"
+    _check_keys("columns", columns, names, without, "of str, or of int for places", str, int)
+    _check_keys("units", units, {_KINDS.get(one, one) for one in wanted}, without, "of str", str)
     for key, place in columns.items():
         if isinstance(place, int) and place < 1:
-            label = f": {key} = {place}"
-            raise must_be("columns", "1 or more, or a name", label)
+            raise must_be("columns", "1 or more, or a name", f": {key} = {place}")
     for key, unit in units.items():
         if unit not in KINDS[key].units:
             allowed = f"one of {', '.join(KINDS[key].units)}"
             raise must_be("units", allowed, f": {key} = {brief(unit)}")
+
+
+def _check_keys(
+    name: str, declared: Any, known: set[str], without: str, kinds: str, *types: type
+) -> None:
+    """Refuse what is no mapping of these types, keys that are not known, and those missing."""
+    if not isinstance(declared, Mapping) or not all(
+        isinstance(x, types) and not isinstance(x, bool) for x in declared.values()
+    ):
+        raise refusal(name, declared, f"a dict {kinds}")
+    for key in declared:
+        if key not in known:
+            unknown = f": {brief(key)} is unknown" + without * (key == "temperature")
+            allowed = f"of {', '.join(sorted(known))}"
+            raise InvalidInput(Argument(name), unknown, Must(", must be "), allowed)
+    for key in sorted(known - declared.keys()):
+        alone = (name, key) == ("columns", "temperature")
+        hint = "; or temperatures has one for each file" if alone else ""
+        raise InvalidInput(Argument(name), f": {key!r} is missing{hint}")
 
 
 def _check_stated(table: Columns, columns: Names, units: Mapping[str, str]) -> None:

@@ -16,7 +16,6 @@ from asperity.base.table import imported
 from asperity.io.files import check_output, refuse_overwrite, write_whole
 from asperity.report.comparison import compared, differing_inputs
 from asperity.report.contents import (
-    Source,
     check_unchanged,
     digests,
     input_rows,
@@ -39,8 +38,7 @@ def write_report(
 ) -> None:
     """Write the report of scenes; `bar` shows how far it is."""
     check_output(output)
-    page, _ = report_page(paths, title, bar, output=output)
-    write_whole(output, page)
+    write_whole(output, report_page(paths, title, bar, output=output))
 
 
 def report_page(
@@ -49,8 +47,8 @@ def report_page(
     bar: Bar = no_bar,
     folder: Path | None = None,
     output: Path | None = None,
-) -> tuple[str, list[Source]]:
-    """The page, and the files that it was made from, none of which may be the `output`.
+) -> str:
+    """The page; none of the files that it is made from may be the `output`.
 
     A `folder` that all are in is left unsaid.
     """
@@ -102,7 +100,7 @@ def report_page(
     variants = compared(
         _variants(names, loaded), [scenes[i] for i in first], [curves[i] for i in first]
     )
-    page = environment.from_string(_shipped("page.html")).render(
+    page: str = environment.from_string(_shipped("page.html")).render(
         title=title or f"Friction of {', '.join(names)}",
         version=__version__,
         date=date,
@@ -117,7 +115,7 @@ def report_page(
         pairs=[pair_texts(one) for one in variants],
         versions=versions(),
     )
-    return page, all_sources
+    return page
 
 
 def _without_folder(scene: Scene, folder: Path) -> Scene:
