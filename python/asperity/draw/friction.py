@@ -95,20 +95,19 @@ def curves_of(
     where they do not know them themselves."""
     over = _NAMES[abscissa]
     for name in dict.fromkeys(names):
-        of_name = [i for i, one in enumerate(names) if one == name]
-        parts = [_columns(results[i], temperatures[i]) for i in of_name]
+        each = zip(results, names, temperatures, strict=True)
+        parts = [_columns(result, at) for result, one, at in each if one == name]
         flat = {key: np.concatenate([part[key] for part in parts]) for key in parts[0]}
         keys = [key for key in ("temperature", "pressure", "velocity", "direction") if key != over]
-        varied = {key for key in keys if np.ptp(np.nan_to_num(flat[key])) > 0}
-        told = [key for key in keys if key in ("pressure", "velocity") or key in varied]
         points = np.stack([np.nan_to_num(flat[key]) for key in keys], axis=-1)
+        varied = {key for key, entries in zip(keys, points.T, strict=True) if np.ptp(entries) > 0}
+        told = [key for key in keys if key in ("pressure", "velocity") or key in varied]
         first = np.unique(points, axis=0, return_index=True)[1]
         alone = varied == {"direction"} and len(set(names)) == 1
         for start in sorted(first):
             at = np.flatnonzero((points == points[start]).all(axis=1))
             at = at[np.argsort(flat[over][at], kind="stable")]
-            values = {key: float(flat[key][start]) for key in told}
-            texts = {k: _text(k, value, celsius=celsius) for k, value in values.items()}
+            texts = {key: _text(key, float(flat[key][start]), celsius=celsius) for key in told}
             label = texts.pop("direction") if alone else ""
             x = flat[over][at] - (ZERO_CELSIUS if celsius and over == "temperature" else 0.0)
             rest = {key: flat[key][at] for key in (*_COLUMNS, "low", "high", "cold", "rise")}
@@ -135,8 +134,7 @@ def _background(result: Any) -> NDArray[np.float64]:
 
 def _direction(result: Any) -> NDArray[np.float64]:
     """The direction of sliding of a result [degrees]; NaN where it has none."""
-    found = getattr(result, "direction", None)
-    return np.degrees(np.asarray(np.nan if found is None else found, dtype=np.float64))
+    return np.degrees(np.asarray(getattr(result, "direction", None), dtype=np.float64))
 
 
 def _columns(result: Any, temperature: float | None) -> dict[str, NDArray[np.float64]]:
