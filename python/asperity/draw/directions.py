@@ -51,7 +51,9 @@ def _place_ticks(axes: Any, curves: Sequence[Any]) -> None:
     beside = 0.04 * axes.get_rmax()
 
     def nearest(angle: float) -> float:
-        at = [np.interp(angle, x, y, period=360) for x, y in lines]
+        away = [np.abs((x - angle + 180) % 360 - 180).min() for x, _ in lines]
+        drawn = [line for line, degrees in zip(lines, away, strict=True) if degrees < _TICKS]
+        at = [np.interp(angle, x, y, period=360) for x, y in drawn]
         gaps = np.subtract.outer(axes.get_yticks()[1:] + beside, at)
         return float(np.min(np.abs(gaps), initial=np.inf))
 

@@ -107,7 +107,8 @@ def legend(axes: Axes, **how: Any) -> None:
     title = "\n".join(filter(None, (above, how.pop("title", ""))))
     axes.set_title("")
     before = _lines_above(axes)
-    how |= {"bbox_to_anchor": (0.5, 1.0), "ncols": columns, "title": title or None}
+    top = 1.1 if axes.name == "polar" else 1.0  # the name of an angle stands between
+    how |= {"bbox_to_anchor": (0.5, top), "ncols": columns, "title": title or None}
     axes.legend(handles, labels, loc="lower center", frameon=False, **how)
     grown = _LINE * (_lines_above(axes) - before)
     figure.set_figheight(figure.get_figheight() + grown)

@@ -138,3 +138,19 @@ def test_python_draws_what_the_shell_draws(folder: Path, figures: list[Any]) -> 
     (folder / "dry.toml").write_text(SCENE.replace("[adhesion]\nshear_stress_pa = 8.3e6\n", ""))
     assert load_scene("dry.toml").friction().plot().get_ylabel().endswith("of hysteresis alone")
     pyplot.close("all")
+
+
+def test_names_on_a_polar_picture_stand_free(folder: Path, figures: list[Any]) -> None:
+    """The legend is above those of the angles, those of radii are where no curve is."""
+    text = SCENE.replace("[surface]", "[surface]\naxis_ratio = 3.0")
+    turned = "[conditions]\ndirection_deg = {from = 0, to = 150, points = 11}"
+    (folder / "scene.toml").write_text(text.replace("[conditions]", turned))
+    assert main(["friction", "scene.toml", "--plot", "a.svg", "--output", "a.csv"]) == 0
+    (figure,) = figures
+    axes = figure.axes[0]
+    assert axes.name == "polar"
+    assert bars(figure)
+    above = axes.get_legend().get_window_extent()
+    angles = [one.label1.get_window_extent() for one in axes.xaxis.get_major_ticks()]
+    assert not any(above.overlaps(one) for one in angles)
+    assert 150 < axes.get_rlabel_position() < 360
