@@ -77,9 +77,8 @@ class ResultPart(Shows):
             self._chart = chart({}, "Friction coefficient over velocity", "24rem")
             with ui.element("div").classes("flex items-center gap-2 w-full"):
                 self._name = ui.input("Name of this curve").props("dense outlined").classes("grow")
-                ui.button("Keep for comparison", on_click=self._keep).props(
-                    'no-caps outline color="blue-9"'
-                )
+                keep = ui.button("Keep for comparison", on_click=self._keep)
+                keep.props('no-caps outline color="blue-9"')
             self._kept = ui.element("div").classes("flex gap-2 w-full")
             self._downloads()
             with ui.expansion("Errors and notes", value=True).classes("w-full").props("dense"):

@@ -2,6 +2,7 @@
 
 import base64
 import os
+import time
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
@@ -157,9 +158,7 @@ def _link(text: str, kind: str) -> str:
 
 def _now() -> str:
     """The day in UTC; that of SOURCE_DATE_EPOCH, for whoever wants the same bytes again."""
-    stated = os.environ.get("SOURCE_DATE_EPOCH")
-    if stated is None:
-        return f"{datetime.now(UTC):%Y-%m-%d}"
+    stated = os.environ.get("SOURCE_DATE_EPOCH", f"{time.time():.0f}")
     try:
         return f"{datetime.fromtimestamp(int(stated), UTC):%Y-%m-%d}"
     except (ValueError, OverflowError, OSError):
