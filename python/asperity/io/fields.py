@@ -238,15 +238,6 @@ def refuse(path: Path, field: str, problem: str, phrase: Value | None = None) ->
     raise InvalidInput(Argument(shortened(field)), *value, f": {problem}", where=path)
 
 
-def require(
-    path: Path, section: str, values: Mapping[str, object], keys: tuple[str, ...], hint: str = ""
-) -> None:
-    """Refuse a table that lacks one of `keys`."""
-    for key in keys:
-        if key not in values:
-            refuse(path, f"[{section}] {key}", "missing" + (hint and f"; {hint}"))
-
-
 def nearest(name: str, known: Mapping[str, object], form: str = "{}") -> str:
     """What to try instead of an unknown name."""
     import difflib  # here: `import asperity` is to be quick

@@ -12,6 +12,7 @@ from asperity.io import plausible
 from asperity.scene.parts import build_correction
 from asperity.scene.rubber import BuiltRubber, build_measured, build_rubber
 from asperity.scene.scene import Builders
+from asperity.scene.section import Section
 from asperity.scene.surface import READ, Surface, build_surface, read_scans
 
 
@@ -57,10 +58,10 @@ class KeptBuilders(Builders):
         made: Surface = self._kept.get(key, lambda: build_surface(path, table, self._read))
         return made
 
-    def _read(self, path: Path, values: dict[str, Any], every: bool) -> Any:
-        which = {key: values[key] for key in READ if key in values}
+    def _read(self, section: Section, every: bool) -> Any:
+        which = {key: section.values[key] for key in READ if key in section.values}
         key = "scans", as_key(which), every
-        return self._kept.get(key, lambda: read_scans(path, values, every))
+        return self._kept.get(key, lambda: read_scans(section, every))
 
     def _rubber(self, path: Path, table: object, at: float | None) -> BuiltRubber:
         key = "rubber", as_key(table), at
@@ -69,9 +70,9 @@ class KeptBuilders(Builders):
         )
         return made
 
-    def _measured(self, path: Path, values: dict[str, Any]) -> Any:
-        key = "isotherms", as_key(values)
-        return self._kept.get(key, lambda: build_measured(path, values))
+    def _measured(self, section: Section) -> Any:
+        key = "isotherms", as_key(section.values)
+        return self._kept.get(key, lambda: build_measured(section))
 
     def _correction(self, path: Path, table: object, spectrum: Any, *scan: Any) -> Any:
         def build() -> Any:  # with the spectrum, so that no other has its id meanwhile

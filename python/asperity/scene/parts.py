@@ -16,18 +16,16 @@ from asperity.io.fields import (
     fields_of,
     names_of,
     nearest,
-    read_table,
     refuse,
     rename_in_errors,
-    require,
     required,
     text,
 )
 from asperity.scene.scan import Scan
+from asperity.scene.section import Section, Values
 from asperity.spectrum import SelfAffineSpectrum, Spectrum
 from asperity.surface import HeightMap, LineScan
 
-Values = dict[str, Any]
 _Part = TypeVar("_Part", Adhesion, Heating)
 
 
@@ -45,16 +43,14 @@ HEATING = fields_of(Heating)
 HEATING_NAMES = names_of("heating", HEATING)
 
 
-def build_part(path: Path, section: str, table: object, part: type[_Part]) -> tuple[_Part, Values]:
+def build_part(path: Path, name: str, table: object, part: type[_Part]) -> tuple[_Part, Values]:
     """Adhesion or heating of a scene, which a table has all of."""
     fields = fields_of(part)
-    values = read_table(path, section, table, fields)
+    section = Section.read(path, name, table, fields)
     needed = required(fields)
-    hint = f"[{section}] needs {', '.join(needed)}" if len(needed) > 1 else ""
-    require(path, section, values, needed, hint)
-    with rename_in_errors(path, names_of(section, fields)):
-        made = part(**arguments(values, fields))
-    return made, _with_defaults(values, fields, made)
+    section.require(*needed, hint=f"[{name}] needs {', '.join(needed)}" * (len(needed) > 1))
+    made = section.call(part, fields)
+    return made, _with_defaults(section.values, fields, made)
 
 
 def build_correction(
@@ -74,14 +70,15 @@ def build_correction(
         known = f"{nearest(str(kind), CORRECTIONS)}; a scene without [correction] has none"
         refuse(path, "[correction] kind", known, valued(kind))
     fields = CORRECTIONS[kind]
-    values = read_table(path, "correction", table, fields)
+    section = Section.read(path, "correction", table, fields)
     if "z_max_m" in fields:
-        values = _with_map(path, kind, values, surface, surface_values)
-    require(path, "correction", values, required(fields))
+        section = section.having(_with_map(section, kind, surface, surface_values))
+    section.require(*required(fields))
+    values = section.values
     settings = arguments(values, fields)
     settings.pop("min_distance", None)  # the peaks are found
     if kind == "scan-contact":
-        settings["height_map"] = _map_of(path, surface, surface_values)
+        settings["height_map"] = _map_of(section, surface, surface_values)
     names = {**names_of("correction", fields), "peaks": "[correction] heights_m"}
     with rename_in_errors(path, names):
         correction: Correction = KINDS[kind](**settings)
@@ -94,53 +91,45 @@ def build_correction(
     return correction, _with_defaults(values, fields, correction)
 
 
-def _map_of(path: Path, surface: Scan | None, surface_values: Mapping[str, Any]) -> HeightMap:
+def _map_of(section: Section, surface: Scan | None, surface_values: Mapping[str, Any]) -> HeightMap:
     """Return the scan of the scene, without the trend that the scene takes off."""
     if not isinstance(surface, HeightMap):
-        refuse(path, "[correction] kind", "scan-contact needs one [surface] file with a map")
+        section.refuse("kind", "scan-contact needs one [surface] file with a map")
     detrended = surface_values["detrend"] == "quadratic"
     return surface.detrend("quadratic") if detrended else surface
 
 
 def _with_map(
-    path: Path,
-    kind: str,
-    values: Values,
-    surface: Scan | None,
-    surface_values: Mapping[str, Any],
+    section: Section, kind: str, surface: Scan | None, surface_values: Mapping[str, Any]
 ) -> Values:
-    """`values` with what the map can tell of peaks and extremes."""
-    values = dict(values)
-    gaussian = kind == "greenwood-williamson" and "heights_m" not in values
+    """Values with what the map can tell of peaks and extremes."""
+    values = dict(section.values)
+    given = "heights_m" in values
+    gaussian = kind == "greenwood-williamson" and not given
     if "min_distance_m" in values:
-        if "heights_m" in values:
-            refuse(path, "[correction] min_distance_m", "must be left out where heights_m is given")
+        if given:
+            section.leave_out(("min_distance_m",), "heights_m is given")
         if surface is None:
-            refuse(path, "[correction] min_distance_m", "needs a surface file; give heights_m")
+            section.refuse("min_distance_m", "needs a surface file; give heights_m")
         if isinstance(surface, LineScan):
             problem = "needs a map, whose peaks a line scan misses; give heights_m"
-            refuse(path, "[correction] min_distance_m", problem)
+            section.refuse("min_distance_m", problem)
     extremes = ("z_max_m",) if kind == "local-peaks" else ("z_max_m", "z_min_m")
     if surface is None:
         needed = extremes if gaussian else ("heights_m", *extremes)
-        require(path, "correction", values, needed, "or [surface] needs a file to take it from")
+        section.require(*needed, hint="or [surface] needs a file to take it from")
         return values
-    if not gaussian and "heights_m" not in values:
-        require(path, "correction", values, ("min_distance_m",), "the least distance of two peaks")
+    if not gaussian and not given:
+        section.require("min_distance_m", hint="the least distance of two peaks")
     if kind != "local-peaks":
         if "q0_per_m" in surface_values:
             values.setdefault("q0_per_m", surface_values["q0_per_m"])
-        require(
-            path,
-            "correction",
-            values,
-            ("q0_per_m",),
-            "the wavenumber of the macro-asperities, which a scan does not tell",
-        )
+        hint = "the wavenumber of the macro-asperities, which a scan does not tell"
+        section.having(values).require("q0_per_m", hint=hint)
     if surface_values["detrend"] != "none":
         surface = surface.detrend(surface_values["detrend"])
     if "min_distance_m" in values:
-        with rename_in_errors(path, names_of("correction", _PEAKS)):
+        with section.naming(_PEAKS):
             peaks = surface.local_peaks(min_distance=values["min_distance_m"])
         values["heights_m"] = peaks.tolist()
     for key in extremes:

@@ -21,10 +21,7 @@ from asperity.io.fields import (
     file_names,
     in_keys,
     names_of,
-    read_table,
-    refuse,
     rename_in_errors,
-    require,
     text,
     truth,
 )
@@ -32,11 +29,12 @@ from asperity.io.read_dma import read_isotherms
 from asperity.io.read_master_curve import read_master_curve
 from asperity.prony_fit import PronyExtrapolation, PronyFit, fit_prony
 from asperity.rubber import MasterCurve, PronySeries, Rubber
+from asperity.scene.section import Section, Values
 from asperity.scene.shift import (
     BUILD,
+    REFERENCE,
     TEMPERATURE,
     WLF_KEYS,
-    Values,
     shift_factor,
     shift_of,
     shift_table,
@@ -46,7 +44,7 @@ from asperity.shift_factors import TemperatureShift
 from asperity.sweeps import Isotherm, StrainFactors
 from asperity.uncertainty.draws import Drawn, Generator, ShiftedRubber, draw_build, drawn_rubber
 
-Measured = Callable[[Path, Values], tuple[list[Isotherm], MasterCurveBuild]]
+Measured = Callable[[Section], tuple[list[Isotherm], MasterCurveBuild]]
 
 _ADD = "add temperature_k or temperature_c, at which the rubber is wanted"
 
@@ -59,7 +57,14 @@ _PRONY_FIT = {
         meaning="true: the Prony series through the isotherms, known on the measured frequencies",
     )
 }
-_REFERENCE = {"reference_temperature_k", "reference_temperature_c"}
+_EXTRAPOLATION = {
+    "extrapolation": Field(
+        text,
+        "extrapolation",
+        meaning='of a master curve "power-law" or "clamp", a decade at each end; of '
+        '`prony = true` "prony"',
+    )
+}
 RUBBER = {
     **_PRONY,
     "master_curve": Field(
@@ -76,19 +81,14 @@ RUBBER = {
     **TEMPERATURE,
     **WLF_KEYS,
     **_PRONY_FIT,
-    "extrapolation": Field(
-        text,
-        "extrapolation",
-        meaning='of a master curve "power-law" or "clamp", a decade at each end; of '
-        '`prony = true` "prony"',
-    ),
+    **_EXTRAPOLATION,
     **STRAIN,
 }
 # which keys go with which source of the modulus
 _WITH = {
     "isotherms": {*_DMA, *BUILD, *TEMPERATURE, *_PRONY_FIT, "extrapolation"},
-    "master_curve": {*_TABLE, *TEMPERATURE, *_REFERENCE, *WLF_KEYS, "extrapolation"},
-    "": {*_PRONY, *TEMPERATURE, *_REFERENCE, *WLF_KEYS},
+    "master_curve": {*_TABLE, *TEMPERATURE, *REFERENCE, *WLF_KEYS, "extrapolation"},
+    "": {*_PRONY, *TEMPERATURE, *REFERENCE, *WLF_KEYS},
 }
 # what results state where these keys are left out
 _STATED: dict[str, Values] = {
@@ -124,82 +124,68 @@ def build_rubber(
 ) -> BuiltRubber:
     """The rubber of a scene's table; `temperature` [K] is that of its conditions. `measured` takes
     the place of `build_measured` for who keeps what it built."""
-    measure = measured or build_measured
-    values = read_table(path, "rubber", table, RUBBER)
-    source = next((key for key in ("isotherms", "master_curve") if key in values), "")
-    for key in values:
-        if key != source and key not in _WITH[source] and key not in STRAIN:
-            context = f"{source} is given" if source else "neither isotherms nor master_curve is"
-            refuse(path, f"[rubber] {key}", f"must be left out where {context}")
-    factors = build_strain(path, values)
-    built = _at(path, values, source, temperature, measure)
-    return replace(built, strain_factors=factors)
-
-
-def _at(
-    path: Path, values: Values, source: str, temperature: float | None, measure: Measured
-) -> BuiltRubber:
-    """The rubber at a temperature [K] of the conditions, or that of its own table."""
-    if temperature is None:
-        kelvin = _in_kelvin(path, values)
-        built = _build(path, source, kelvin, measure)
-        used = {**_STATED[source], **built.values}
-        return replace(built, values=used, temperature=kelvin.get("temperature_k"))
-    for key in ("temperature_k", "temperature_c"):
-        if key in values:
-            refuse(path, f"[rubber] {key}", "must be left out where [conditions] has a temperature")
-    named = {"[rubber] temperature_k": "[conditions] temperature_k"}  # the table that has it
+    section = Section.read(path, "rubber", table, RUBBER)
+    source = next((key for key in ("isotherms", "master_curve") if key in section.values), "")
+    foreign = [key for key in section.values if key not in {source, *_WITH[source], *STRAIN}]
+    context = f"{source} is given" if source else "neither isotherms nor master_curve is"
+    section.leave_out(foreign, context)
+    factors = build_strain(section)
+    named = {}
+    if temperature is not None:
+        section.leave_out(("temperature_k", "temperature_c"), "[conditions] has a temperature")
+        named = {"[rubber] temperature_k": "[conditions] temperature_k"}  # the table that has it
     with rename_in_errors(None, named):
-        kelvin = {**_in_kelvin(path, values), "temperature_k": temperature}
-        built = _build(path, source, kelvin, measure)
-    used = {key: one for key, one in built.values.items() if key != "temperature_k"}
-    return replace(built, values={**_STATED[source], **used}, temperature=temperature)
+        values = _in_kelvin(section)
+        if temperature is not None:
+            values["temperature_k"] = temperature
+        built = _build(section.having(values), source, measured or build_measured)
+    used = {**_STATED[source], **built.values}
+    if temperature is not None:
+        del used["temperature_k"]
+    temperature = values.get("temperature_k")
+    return replace(built, values=used, temperature=temperature, strain_factors=factors)
 
 
-def _build(path: Path, source: str, values: Values, measure: Measured) -> BuiltRubber:
+def _build(section: Section, source: str, measure: Measured) -> BuiltRubber:
     if source == "isotherms":
-        return _from_isotherms(path, values, measure)
+        return _from_isotherms(section, measure)
+    values = section.values
     rubber: Rubber
-    shifts = shift_of(path, values)
+    shifts = shift_of(section)
     if source == "master_curve":
-        keys = {**_TABLE, "extrapolation": RUBBER["extrapolation"]}
-        with rename_in_errors(path, names_of("rubber", keys)):
-            file = path.parent / values["master_curve"]
-            ramp = "temperature" in values.get("columns", {})
-            how = arguments(values, keys)
-            rubber = read_master_curve(file, shift=shifts if ramp else None, **how)
+        ramp = "temperature" in values.get("columns", {})
+        file = section.path.parent / values["master_curve"]
+        rubber = section.call(
+            read_master_curve, {**_TABLE, **_EXTRAPOLATION}, file, shift=shifts if ramp else None
+        )
     else:
         alternatives = (
             "give isotherms, master_curve, or equilibrium_modulus_pa, moduli_pa and "
             "relaxation_times_s"
         )
-        require(path, "rubber", values, tuple(_PRONY), alternatives)
-        with rename_in_errors(path, names_of("rubber", _PRONY)):
-            rubber = PronySeries(**arguments(values, _PRONY))
+        section.require(*_PRONY, hint=alternatives)
+        rubber = section.call(PronySeries, _PRONY)
         where = "[rubber] equilibrium_modulus_pa and moduli_pa together"
-        plausible.check(where, rubber._stiffest, quantities.MODULUS, path=path)
+        plausible.check(where, rubber._stiffest, quantities.MODULUS, path=section.path)
     if shifts is None:
-        for key in ("temperature_k", "reference_temperature_k"):
-            if key in values:
-                problem = "needs shift, a file of shift factors, or wlf_c1 and wlf_c2_k"
-                refuse(path, f"[rubber] {key}", problem)
+        problem = "needs shift, a file of shift factors, or wlf_c1 and wlf_c2_k"
+        section.refuse_each(("temperature_k", "reference_temperature_k"), problem)
         return BuiltRubber(rubber, values, Drawn(ShiftedRubber(rubber)))
     known = "shift holds a_T of several" if "shift" in values else "the law gives a_T at any"
-    require(path, "rubber", values, ("temperature_k",), f"{_ADD}: {known}")
-    shifted = rubber.shifted(shift_factor(path, shifts, values))
+    section.require("temperature_k", hint=f"{_ADD}: {known}")
+    shifted = rubber.shifted(shift_factor(section, shifts))
     made = BuiltRubber(shifted, values, Drawn(ShiftedRubber(shifted)), shifts, rubber)
     return replace(made, drawn_at_reference=drawn_rubber(rubber, shifts))
 
 
-def _in_kelvin(path: Path, values: Values) -> Values:
-    """`values` with temperatures in K, whichever of the two units they were given in."""
-    kelvin = dict(values)
+def _in_kelvin(section: Section) -> Values:
+    """Values with temperatures in K, whichever of the two units they were given in."""
+    kelvin = dict(section.values)
     for name in ("temperature", "reference_temperature"):
-        if f"{name}_c" not in values:
-            continue
-        if f"{name}_k" in values:
-            refuse(path, f"[rubber] {name}_c", f"must be left out where {name}_k is given")
-        kelvin[f"{name}_k"] = kelvin.pop(f"{name}_c") + ZERO_CELSIUS
+        if f"{name}_c" in kelvin:
+            if f"{name}_k" in kelvin:
+                section.leave_out((f"{name}_c",), f"{name}_k is given")
+            kelvin[f"{name}_k"] = kelvin.pop(f"{name}_c") + ZERO_CELSIUS
     return kelvin
 
 
@@ -221,54 +207,53 @@ def _naming_temperature(values: Values) -> Iterator[None]:
         raise error from error.__cause__
 
 
-def build_measured(path: Path, values: Values) -> tuple[list[Isotherm], MasterCurveBuild]:
+def build_measured(section: Section) -> tuple[list[Isotherm], MasterCurveBuild]:
     """Isotherms and the master curve of them, whatever temperature the rubber is wanted at."""
-    fitted = values.get("prony", False)
-    files = [path.parent / name for name in values["isotherms"]]
-    with rename_in_errors(path, names_of("rubber", _DMA)):
-        isotherms = read_isotherms(files, **arguments(values, _DMA))
-    with rename_in_errors(
-        path, {**names_of("rubber", {**BUILD, **RUBBER}), "isotherms": "isotherms"}
-    ):
+    values = section.values
+    files = [section.path.parent / name for name in values["isotherms"]]
+    isotherms = section.call(read_isotherms, _DMA, files)
+    names = {**names_of("rubber", {**BUILD, **RUBBER}), "isotherms": "isotherms"}
+    with rename_in_errors(section.path, names):
         build = build_master_curve(
             isotherms,
             **arguments(values, BUILD),
-            shift_factors=shift_table(path, values),
-            extrapolation=None if fitted else values.get("extrapolation"),
+            shift_factors=shift_table(section),
+            extrapolation=None if values.get("prony", False) else values.get("extrapolation"),
         )
     return isotherms, build
 
 
-def _from_isotherms(path: Path, values: Values, measure: Measured) -> BuiltRubber:
-    require(path, "rubber", values, ("columns", "units", "modulus"), "isotherms declare them")
-    require(path, "rubber", values, ("temperature_k",), f"{_ADD}: isotherms give E at several")
-    with _naming_temperature(values):
-        return _at_a_temperature(
-            path, {"reference_temperature_k": values["temperature_k"], **values}, measure
-        )
+def _from_isotherms(section: Section, measure: Measured) -> BuiltRubber:
+    section.require("columns", "units", "modulus", hint="isotherms declare them")
+    section.require("temperature_k", hint=f"{_ADD}: isotherms give E at several")
+    wanted = section.values["temperature_k"]
+    with _naming_temperature(section.values):
+        known = section.having({"reference_temperature_k": wanted, **section.values})
+        return _at_a_temperature(known, measure)
 
 
-def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRubber:
+def _at_a_temperature(section: Section, measure: Measured) -> BuiltRubber:
+    values = section.values
     extrapolation, fitted = values.get("extrapolation"), values.get("prony", False)
     if extrapolation is not None and fitted != (extrapolation == "prony"):
         allowed = 'must be "prony" or left out' if fitted else '"prony" needs prony = true'
-        refuse(path, "[rubber] extrapolation", allowed, valued(extrapolation, extrapolation))
+        section.refuse("extrapolation", allowed, valued(extrapolation, extrapolation))
     at_any = {key: one for key, one in values.items() if key != "temperature_k"}
-    isotherms, build = measure(path, at_any)
-    rubber = _at_temperature(path, values, build, extrapolation)
+    isotherms, build = measure(section.having(at_any))
+    rubber = _at_temperature(section, build, extrapolation)
 
     def draw(rng: Generator) -> ShiftedRubber:  # its shifts move the ends of what was measured
-        return ShiftedRubber(_at_temperature(path, values, draw_build(build, rng), "prony"))
+        return ShiftedRubber(_at_temperature(section, draw_build(build, rng), "prony"))
 
     drawn_at = Drawn(ShiftedRubber(rubber), draw)
     made = BuiltRubber(rubber, values, drawn_at, isotherms=isotherms, build=build)
     if values.get("vertical_shift") is not None:  # the model of heat has no b_T
         return made
 
-    at_reference = {**values, "temperature_k": values["reference_temperature_k"]}
+    at_reference = section.having({**values, "temperature_k": values["reference_temperature_k"]})
 
     def shifted(build: MasterCurveBuild, beyond: str | None) -> ShiftedRubber:
-        return ShiftedRubber(_at_temperature(path, at_reference, build, beyond), build)
+        return ShiftedRubber(_at_temperature(at_reference, build, beyond), build)
 
     plain = shifted(build, extrapolation)
     source = None if fitted else build
@@ -276,18 +261,17 @@ def _at_a_temperature(path: Path, values: Values, measure: Measured) -> BuiltRub
     return replace(made, shift=build, at_reference=plain.rubber, drawn_at_reference=drawn)
 
 
-def _at_temperature(
-    path: Path, values: Values, build: MasterCurveBuild, beyond: str | None
-) -> Rubber:
+def _at_temperature(section: Section, build: MasterCurveBuild, beyond: str | None) -> Rubber:
     """The master curve, or the Prony series through it, as it is at the scene's temperature."""
-    curve = build.master_curve.shifted(shift_factor(path, build, values))
+    values = section.values
+    curve = build.master_curve.shifted(shift_factor(section, build))
     if values.get("vertical_shift") == "T/T_ref":
         b_t = values["temperature_k"] / values["reference_temperature_k"]
         moduli = {"storage_modulus": curve.storage_modulus, "loss_modulus": curve.loss_modulus}
         curve = replace(curve, **{name: b_t * modulus for name, modulus in moduli.items()})
     if not values.get("prony", False):
         return curve
-    with rename_in_errors(path, {"residual": "[rubber] prony"}):
+    with rename_in_errors(section.path, {"residual": "[rubber] prony"}):
         return quiet_prony(curve, "prony" if beyond == "prony" else None)
 
 

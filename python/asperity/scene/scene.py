@@ -20,7 +20,6 @@ from asperity.io.fields import (
     nearest,
     read_table,
     refuse,
-    require,
 )
 from asperity.io.files import check_file
 from asperity.io.toml import read_toml_text, toml_value
@@ -38,8 +37,9 @@ from asperity.scene.keys import (
     temperatures_of,
 )
 from asperity.scene.model import Scene
-from asperity.scene.parts import Values, build_correction, build_part
+from asperity.scene.parts import build_correction, build_part
 from asperity.scene.rubber import BuiltRubber, build_rubber
+from asperity.scene.section import Section, Values
 from asperity.scene.surface import Surface, build_surface
 
 
@@ -119,8 +119,9 @@ def build_scene(
     path: Path, tables: dict[str, Any], *, for_friction: bool, builders: Builders = _PLAIN
 ) -> Scene:
     """Build a scene of its tables; `path` is whose errors they are, and where its files lie."""
-    conditions = read_table(path, "conditions", tables["conditions"], CONDITIONS)
-    require(path, "conditions", conditions, tuple(POINTS))
+    section = Section.read(path, "conditions", tables["conditions"], CONDITIONS)
+    section.require(*POINTS)
+    conditions = section.values
     solver = read_table(path, "solver", tables.get("solver", {}), SOLVER)
     points = {key: conditions.pop(key) for key in POINTS}
     conditions = {**defaults_of(CONDITIONS), **conditions}

@@ -1,37 +1,27 @@
 """Shift factors of a scene's rubber: from a file, or by the constants of a law."""
 
-from pathlib import Path
-from typing import Any
-
 from asperity.base.diagnostics import unfit
 from asperity.dma import MasterCurveBuild
 from asperity.io.fields import (
     Field,
-    arguments,
     fields_of,
     file_name,
     kelvin_or_celsius,
-    names_of,
     number,
     one_temperature,
-    refuse,
-    rename_in_errors,
-    require,
     text,
 )
 from asperity.io.read_shift_factors import read_shift_factors
+from asperity.scene.section import Section
 from asperity.shift_factors import WLF, ShiftFactors
 
-Values = dict[str, Any]
-BUILD = {
-    **kelvin_or_celsius(
-        number,
-        "reference_temperature",
-        "at which the master curve is built, with isotherms that at which the rubber is wanted "
-        "unless given; with `shift` and `wlf_c1` required: that of the modulus given",
-    ),
-    "vertical_shift": Field(text, "vertical_shift"),
-}
+REFERENCE = kelvin_or_celsius(
+    number,
+    "reference_temperature",
+    "at which the master curve is built, with isotherms that at which the rubber is wanted "
+    "unless given; with `shift` and `wlf_c1` required: that of the modulus given",
+)
+BUILD = {**REFERENCE, "vertical_shift": Field(text, "vertical_shift")}
 TEMPERATURE = {
     **kelvin_or_celsius(
         one_temperature,
@@ -46,53 +36,39 @@ TEMPERATURE = {
     ),
 }
 WLF_KEYS = fields_of(WLF, "c1", "c2")
+_AT_ONE = "or reference_temperature_c, at which a_T is 1"
 
 
-def shift_of(path: Path, values: Values) -> ShiftFactors | WLF | None:
+def shift_of(section: Section) -> ShiftFactors | WLF | None:
     """a_T(T), from a file or from the constants of a law."""
-    constants = [key for key in WLF_KEYS if key in values]
+    constants = [key for key in WLF_KEYS if key in section.values]
     if not constants:
-        return shift_table(path, values)
-    if "shift" in values:
-        refuse(path, f"[rubber] {constants[0]}", "must be left out where shift is given")
-    require(path, "rubber", values, tuple(WLF_KEYS), "the law of a_T has two constants")
-    hint = "or reference_temperature_c, at which a_T is 1"
-    require(path, "rubber", values, ("reference_temperature_k",), hint)
-    with rename_in_errors(path, names_of("rubber", {**WLF_KEYS, **BUILD})):
-        reference = values["reference_temperature_k"]
-        return WLF(reference_temperature=reference, **arguments(values, WLF_KEYS))
+        return shift_table(section)
+    if "shift" in section.values:
+        section.leave_out(constants, "shift is given")
+    section.require(*WLF_KEYS, hint="the law of a_T has two constants")
+    section.require("reference_temperature_k", hint=_AT_ONE)
+    return section.call(WLF, {**WLF_KEYS, **REFERENCE})
 
 
-def shift_table(path: Path, values: Values) -> ShiftFactors | None:
-    if "shift" not in values:
+def shift_table(section: Section) -> ShiftFactors | None:
+    if "shift" not in section.values:
         return None
-    require(
-        path,
-        "rubber",
-        values,
-        ("reference_temperature_k",),
-        "or reference_temperature_c, at which a_T is 1",
-    )
-    reference = values["reference_temperature_k"]
-    with rename_in_errors(path, names_of("rubber", BUILD)):
-        file = path.parent / values["shift"]
-        return read_shift_factors(file, reference_temperature=reference)
+    section.require("reference_temperature_k", hint=_AT_ONE)
+    file = section.path.parent / section.values["shift"]
+    return section.call(read_shift_factors, REFERENCE, file)
 
 
-def shift_factor(
-    path: Path, shifts: ShiftFactors | MasterCurveBuild | WLF, values: Values
-) -> float:
+def shift_factor(section: Section, shifts: ShiftFactors | MasterCurveBuild | WLF) -> float:
     """a_T at the scene's temperature."""
-    if values["temperature_k"] == values.get("reference_temperature_k"):
+    at = section.values["temperature_k"]
+    if at == section.values.get("reference_temperature_k"):
         return 1.0
-    with rename_in_errors(path, names_of("rubber", TEMPERATURE)):
-        at = values["temperature_k"]
+    with section.naming(TEMPERATURE):
         if isinstance(shifts, WLF):
             a_t = float(10 ** shifts.log10_a_T(at))
         else:
             a_t = float(shifts.shift_factor(at))
         if not 0 < a_t < float("inf"):
-            raise unfit(
-                "temperature", values["temperature_k"], f"a_T = {a_t}", f"{values['temperature_k']}"
-            )
+            raise unfit("temperature", at, f"a_T = {a_t}", f"{at}")
         return a_t

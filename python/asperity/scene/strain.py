@@ -1,22 +1,11 @@
 """The strain of each magnification in a scene: factors of the modulus, or strain sweeps."""
 
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 from asperity.base.diagnostics import valued
-from asperity.io.fields import (
-    Field,
-    arguments,
-    fields_of,
-    file_names,
-    names_of,
-    refuse,
-    rename_in_errors,
-    require,
-    text,
-)
+from asperity.io.fields import Field, fields_of, file_names, text
 from asperity.io.read_dma import read_strain_sweep
+from asperity.scene.section import Section
 from asperity.sweeps import StrainFactors, strain_factors
 
 BY_MAGNIFICATION = "by-magnification"
@@ -51,38 +40,28 @@ STRAIN = {
 }
 
 
-def build_strain(path: Path, values: dict[str, Any]) -> StrainFactors | None:
+def build_strain(section: Section) -> StrainFactors | None:
     """The factors of a [rubber] table; none where it asks for no strain."""
+    values = section.values
     if "strain" not in values:
-        for key in STRAIN:
-            if key in values:
-                refuse(path, f"[rubber] {key}", f'needs strain = "{BY_MAGNIFICATION}"')
+        section.refuse_each(STRAIN, f'needs strain = "{BY_MAGNIFICATION}"')
         return None
     if (model := values["strain"]) != BY_MAGNIFICATION:
-        refuse(path, "[rubber] strain", f'must be "{BY_MAGNIFICATION}"', valued(model, model))
-    alternative = f"strain_sweeps, or {', '.join(_ROWS)} instead"
+        section.refuse("strain", f'must be "{BY_MAGNIFICATION}"', valued(model, model))
     if "strain_sweeps" not in values:
-        for key in (*_FILES, *_REFERENCE, "strain_kind"):
-            if key in values:
-                refuse(path, f"[rubber] {key}", "needs strain_sweeps, the files that it is of")
-        require(path, "rubber", values, tuple(_ROWS), alternative)
-        keys = {**_ROWS, **_PER_SLOPE}
-        with rename_in_errors(path, names_of("rubber", keys)):
-            return StrainFactors(**arguments(values, keys))
-    for key in filter(values.__contains__, _ROWS):
-        refuse(path, f"[rubber] {key}", "must be left out where strain_sweeps is given")
-    require(path, "rubber", values, ("strain_kind", *_FILES), "files do not tell")
+        of_files = (*_FILES, *_REFERENCE, "strain_kind")
+        section.refuse_each(of_files, "needs strain_sweeps, the files that it is of")
+        section.require(*_ROWS, hint=f"strain_sweeps, or {', '.join(_ROWS)} instead")
+        return section.call(StrainFactors, {**_ROWS, **_PER_SLOPE})
+    section.leave_out(_ROWS, "strain_sweeps is given")
+    section.require("strain_kind", *_FILES, hint="files do not tell")
     kind = values["strain_kind"]
     if kind not in KINDS:
         names = ", ".join(f'"{name}"' for name in KINDS)
-        refuse(path, "[rubber] strain_kind", f"must be one of {names}", valued(kind, kind))
-    with rename_in_errors(path, names_of("rubber", {**_FILES, **_REFERENCE, **_PER_SLOPE})):
-        sweeps = [
-            # E or G: of ratios it does not matter
-            read_strain_sweep(path.parent / name, modulus="E", **arguments(values, _FILES))
-            for name in values["strain_sweeps"]
-        ]
-        return strain_factors(
-            [replace(sweep, strain=sweep.strain / KINDS[kind]) for sweep in sweeps],
-            **arguments(values, {**_REFERENCE, **_PER_SLOPE}),
-        )
+        section.refuse("strain_kind", f"must be one of {names}", valued(kind, kind))
+    sweeps = [  # E or G: of ratios it does not matter
+        section.call(read_strain_sweep, _FILES, section.path.parent / name, modulus="E")
+        for name in values["strain_sweeps"]
+    ]
+    halved = [replace(one, strain=one.strain / KINDS[kind]) for one in sweeps]
+    return section.call(strain_factors, {**_REFERENCE, **_PER_SLOPE}, halved)

@@ -19,13 +19,9 @@ from asperity.io.fields import (
     defaults_of,
     fields_of,
     file_or_files,
-    names_of,
     number,
     pixel_size,
-    read_table,
-    refuse,
     rename_in_errors,
-    require,
     text,
     truth,
 )
@@ -44,13 +40,13 @@ from asperity.scene.scan import (
     scan_notes,
     surface_spectrum,
 )
+from asperity.scene.section import Section, Values
 from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.surface import HeightMap
 from asperity.uncertainty.draws import Drawn, Generator, draw_fit, drawn_spectrum
 
-Values = dict[str, Any]
-Read = Callable[[Path, Values, bool], tuple[list[Scan], Values]]
+Read = Callable[[Section, bool], tuple[list[Scan], Values]]
 
 _SELF_AFFINE = fields_of(SelfAffineSpectrum, "rms_height", "hurst", "rolloff", "axis_ratio", "lay")
 _BAND = fields_of(SelfAffineSpectrum, "q0", "q1")
@@ -120,38 +116,33 @@ class Surface:
 def build_surface(path: Path, table: object, read: Read | None = None) -> Surface:
     """The surface of a scene's table. `read` takes the place of `read_scans` for who keeps what it
     read."""
-    values = read_table(path, "surface", table, SURFACE)
+    section = Section.read(path, "surface", table, SURFACE)
     derived: Values = {}
     scan = fit = floor = lay = None
     of_heights: Sequence[Note] = ()
-    if "file" in values:
-        for key in _SELF_AFFINE:
-            if key in values:
-                refuse(path, f"[surface] {key}", "must be left out where file is given")
-        every = "channel" not in values
-        values = {**defaults_of(_READ), **defaults_of(_TRANSFORM), **values}
-        scans, facts = (read or read_scans)(path, values, every)
+    if "file" in section.values:
+        section.leave_out(_SELF_AFFINE, "file is given")
+        every = "channel" not in section.values
+        defaults = {**defaults_of(_READ), **defaults_of(_TRANSFORM)}
+        section = section.having({**defaults, **section.values})
+        scans, facts = (read or read_scans)(section, every)
         derived |= facts
-        measured, fit, floor = _measure(path, scans, values)
+        measured, fit, floor = _measure(section, scans)
         scan = scans[0] if len(scans) == 1 else None
         spectrum: Spectrum = measured
         if fit is not None:  # which may go on beyond what the scan resolves
-            with rename_in_errors(path, names_of("surface", _BAND)):
-                spectrum = fit.spectrum.extended(**arguments(values, _BAND))
+            spectrum = section.call(fit.spectrum.extended, _BAND)
     else:
-        for key in (*_READ, *_TRANSFORM, *_FIT, *_DIRECTIONAL):
-            if key in values:
-                refuse(path, f"[surface] {key}", "must be left out where no file is given")
+        section.leave_out((*_READ, *_TRANSFORM, *_FIT, *_DIRECTIONAL), "no file is given")
         needed = ("rms_height_m", "hurst", "q0_per_m", "q1_per_m")
-        require(path, "surface", values, needed, "give file, or " + ", ".join(needed))
-        fields = {**_SELF_AFFINE, **_BAND}
-        with rename_in_errors(path, names_of("surface", fields)):
-            spectrum = SelfAffineSpectrum(**arguments(values, fields))
+        section.require(*needed, hint="give file, or " + ", ".join(needed))
+        spectrum = section.call(SelfAffineSpectrum, {**_SELF_AFFINE, **_BAND})
+    values = section.values
     law = spectrum if isinstance(spectrum, SelfAffineSpectrum) else None
     if isinstance(spectrum, TabulatedSpectrum) and "slope_cutoff" in values:
         with suppress(Error):
             law = fit_self_affine(spectrum).spectrum
-    spectrum = _cut(path, spectrum, values)
+    spectrum = _cut(section, spectrum)
     plausible.check("[surface] rms slope", spectrum.rms_slope, quantities.SLOPE, path=path)
     if scan is not None:  # what a law is given by has been checked
         plausible.check(
@@ -184,15 +175,15 @@ def build_surface(path: Path, table: object, read: Read | None = None) -> Surfac
     return Surface(spectrum, scan, values, derived, notes, drawn, fit, lay, of_heights)
 
 
-def read_scans(path: Path, values: Values, every: bool) -> tuple[list[Scan], Values]:
+def read_scans(section: Section, every: bool) -> tuple[list[Scan], Values]:
     """The scans without drop-outs; trends are still in them. Of an archive all or one."""
+    values, folder = section.values, section.path.parent
     named = values["file"] if isinstance(values["file"], list) else [values["file"]]
-    how = arguments(values, _READ)
     facts: dict[str, list[Any]] = {"shape": [], "pixel_size_m": [], "dropout_fraction": []}
     scans = []
-    for name, channel in _channels(path, named, how["channel"], every):
-        with rename_in_errors(path, names_of("surface", _READ)):
-            raw, filled = read_filled(path.parent / name, **{**how, "channel": channel})
+    for file, channel in _channels(folder, named, values["channel"], every):
+        one = section.having({**values, "channel": channel})
+        raw, filled = one.call(read_filled, _READ, file)
         scans.append(filled)
         facts["shape"].append(list(raw.heights.shape))
         pixel = list(raw.pixel_size) if isinstance(raw, HeightMap) else raw.spacing
@@ -202,15 +193,14 @@ def read_scans(path: Path, values: Values, every: bool) -> tuple[list[Scan], Val
 
 
 def _channels(
-    path: Path, named: Sequence[str], channel: int, every: bool
-) -> Iterator[tuple[str, int]]:
-    for name in named:
-        file = path.parent / name
+    folder: Path, named: Sequence[str], channel: int, every: bool
+) -> Iterator[tuple[Path, int]]:
+    for file in (folder / name for name in named):
         if every and file.suffix.lower() == ".zip" and file.is_file():
             with rename_in_errors(file, {}):
-                yield from ((name, at) for at in range(len(scans_of_container(file))))
+                yield from ((file, at) for at in range(len(scans_of_container(file))))
         else:
-            yield name, channel
+            yield file, channel
 
 
 def _transform(values: Values) -> dict[str, Any]:
@@ -221,21 +211,20 @@ def _transform(values: Values) -> dict[str, Any]:
 
 
 def _measure(
-    path: Path, scans: Sequence[Scan], values: Values
+    section: Section, scans: Sequence[Scan]
 ) -> tuple[TabulatedSpectrum, SelfAffineFit | None, float | None]:
     """The scans' spectrum, the self-affine fit to it where the scene asks for one, and where the
     noise of the instrument begins in it, if it shows in that of one map."""
-    settings = _transform(values)
-    band = arguments(values, _BAND)
+    values = section.values
     wanted = values.get("fit")
     if wanted not in (None, "self-affine"):
-        refuse(path, "[surface] fit", 'must be "self-affine", or left out', valued(wanted))
+        section.refuse("fit", 'must be "self-affine", or left out', valued(wanted))
     directional = values.get("directional", False)
     if directional and (wanted is not None or len(scans) > 1):
-        problem = "must be left out where fit or several scans are given: they are means"
-        refuse(path, "[surface] directional", problem)
-    with rename_in_errors(path, names_of("surface", {**_TRANSFORM, **_BAND, **_DIRECTIONAL})):
-        spectra = [surface_spectrum(scan, **settings, directional=directional) for scan in scans]
+        section.leave_out(("directional",), "fit or several scans are given: they are means")
+    with section.naming({**_TRANSFORM, **_BAND, **_DIRECTIONAL}):
+        how = {**_transform(values), "directional": directional}
+        spectra = [surface_spectrum(scan, **how) for scan in scans]
         spectrum = spectra[0]
         if len(scans) > 1:
             whole = [one.truncated(q1=one.q1) for one in spectra]
@@ -245,7 +234,7 @@ def _measure(
         try:
             of_map = len(scans) == 1 and isinstance(scans[0], HeightMap)
             floor = noise_floor(spectrum) if of_map else None
-            return spectrum.truncated(**band), None, floor
+            return spectrum.truncated(**arguments(values, _BAND)), None, floor
         except OutOfRange as error:
             raise error.followed_by('; fit = "self-affine" goes on beyond it') from error
 
@@ -304,21 +293,21 @@ def _slope_notes(
     return [Note(*about, code="slope-not-reached", next_step=step)]
 
 
-def _cut(path: Path, spectrum: Spectrum, values: Values) -> Spectrum:
+def _cut(section: Section, spectrum: Spectrum) -> Spectrum:
     """The spectrum up to the smaller of the cut-offs that are named."""
-    cutoffs = {}
-    with rename_in_errors(path, names_of("surface", _CUTOFFS)):
-        if "contamination_size_m" in values:
-            size = values["contamination_size_m"]
-            cutoffs["contamination_size_m"] = spectrum.cutoff_for_contamination(size)
-        if "slope_cutoff" in values:
-            cutoffs["slope_cutoff"] = spectrum.cutoff_for_slope(values["slope_cutoff"])
+    values = section.values
+    rules: dict[str, Callable[[float], float]] = {
+        "contamination_size_m": spectrum.cutoff_for_contamination,
+        "slope_cutoff": spectrum.cutoff_for_slope,
+    }
+    with section.naming(_CUTOFFS):
+        cutoffs = {key: rule(values[key]) for key, rule in rules.items() if key in values}
     if not cutoffs:
         return spectrum
     key = min(cutoffs, key=cutoffs.__getitem__)
     if cutoffs[key] < _NARROWEST * spectrum.q0:
         place = f"{cutoffs[key]:.4g} 1/m, where the spectrum begins at {spectrum.q0:.4g}"
         problem = f"must leave a band, cuts at {place}: are the heights in another unit?"
-        refuse(path, f"[surface] {key}", problem, valued(values[key]))
-    with rename_in_errors(path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
+        section.refuse(key, problem, valued(values[key]))
+    with rename_in_errors(section.path, {"q1": f"[surface] {key} = {values[key]}: q1"}):
         return spectrum.truncated(q1=cutoffs[key])
