@@ -13,9 +13,9 @@ from asperity.base.value import around
 from asperity.io.objects import surface_from
 from asperity.spectrum import LineSpectrum, TabulatedSpectrum
 from asperity.surface import DETRENDS, Detrend, HeightMap, LineScan, PixelSize
-from asperity.tiles.grid import TileSides, grid_of, tile_shape
+from asperity.tiles.grid import TileSides, grid_of
 from asperity.tiles.share import Workers
-from asperity.tiles.source import DEFAULT, Source, source_of
+from asperity.tiles.source import source_of
 from asperity.tiles.spectrum import tiled_spectrum
 
 Window = Literal["split-cosine-bell", "hann", "none", "blackman"]
@@ -127,75 +127,35 @@ def power_spectrum(
         larger than the map or too small, all have too many drop-outs, or the file of a memory map
         is changed or cut short while it is read.
     """
-    how, preparation = prepared(window, detrend), _said(window, detrend)
+    how = prepared(window, detrend)
     several = whole(threads, "threads", lowest=1, highest=1024)
     side = choice(part, "part", Part)
     if pixel_size is None and not isinstance(surface, HeightMap | LineScan):
         surface = surface_from(surface) or surface
-    if flag(directional, "directional"):
-        if isinstance(surface, LineScan):
-            raise must_be("directional", "False", NO_DIRECTIONS)
-        if tiles is not None or part != "all" or not isinstance(surface, HeightMap):
-            raise must_be("directional", "False by tiles and with a part", " = True")
-        core = _core.directional_spectrum(core_map(surface), *how, several)
-        return around(TabulatedSpectrum, core, preparation=preparation)
-    if tiles is not None or not isinstance(surface, HeightMap | LineScan):
-        if part != "all":
-            raise must_be("part", '"all" by tiles', f' = "{part}"')
-        return power_spectrum_of(
-            source_of(surface, pixel_size),
-            window=window,
-            detrend=detrend,
-            tiles=tiles,
-            overlap=overlap,
-            max_dropouts=max_dropouts,
-            threads=threads,
-            executor=executor,
-        )
-    for name, unused in (
-        ("pixel_size", pixel_size),
-        ("overlap", overlap),
-        ("max_dropouts", max_dropouts),
-        ("executor", executor),
-    ):
+    by_tiles = tiles is not None or not isinstance(surface, HeightMap | LineScan)
+    of_tiles = {"pixel_size": pixel_size, "overlap": overlap, "max_dropouts": max_dropouts}
+    for name, unused in ({} if by_tiles else {**of_tiles, "executor": executor}).items():
         if unused is not None:
             raise InvalidInput(
                 Argument(name), ": goes with tiles, or with an array instead of a HeightMap"
             )
-    core = _core.power_spectrum(core_map(surface), *how, several, side)
+    if flag(directional, "directional"):
+        if isinstance(surface, LineScan):
+            raise must_be("directional", "False", NO_DIRECTIONS)
+        if by_tiles or part != "all":
+            raise must_be("directional", "False by tiles and with a part", " = True")
+        core = _core.directional_spectrum(core_map(surface), *how, several)
+    elif not by_tiles:
+        core = _core.power_spectrum(core_map(surface), *how, several, side)
+    else:
+        if part != "all":
+            raise must_be("part", '"all" by tiles', f' = "{part}"')
+        source = source_of(surface, pixel_size)
+        grid = grid_of(source, tiles, overlap)
+        core = tiled_spectrum(source, grid, how, max_dropouts, Workers(threads, executor))._core
+    # as a scene's [surface] says it
+    preparation = f'window = "{window}", detrend = "{detrend or "none"}"'
     return around(TabulatedSpectrum, core, preparation=preparation)
-
-
-def power_spectrum_of(
-    source: Source,
-    *,
-    window: Window,
-    detrend: Detrend | None,
-    tiles: TileSides | None = None,
-    overlap: float | None = None,
-    max_dropouts: float | None = None,
-    threads: int = 1,
-    executor: Any = None,
-) -> TabulatedSpectrum:
-    """The same by tiles, of an opened map."""
-    how = prepared(window, detrend)
-    ny, nx = source.shape
-    size = (min(DEFAULT, ny), min(DEFAULT, nx)) if tiles is None else tiles
-    sides = tile_shape(size, source.shape, source.pixel_size)
-    made = tiled_spectrum(
-        source,
-        grid_of(source.shape, sides, overlap),
-        window=how[0],
-        detrend=how[1],
-        max_dropouts=max_dropouts,
-        workers=Workers(threads, executor),
-    )
-    return around(TabulatedSpectrum, made._core, preparation=_said(window, detrend))
-
-
-def _said(window: Window, detrend: Detrend | None) -> str:
-    """How heights are prepared, in the words of a scene's [surface]."""
-    return f'window = "{window}", detrend = "{detrend or "none"}"'
 
 
 def line_spectrum(

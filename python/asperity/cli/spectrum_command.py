@@ -21,7 +21,7 @@ from asperity.io.fields import rename_in_errors
 from asperity.io.files import refuse_overwrite
 from asperity.io.open_map import open_map
 from asperity.io.table import Table, columns_of
-from asperity.measured_spectrum import power_spectrum_of
+from asperity.measured_spectrum import power_spectrum
 from asperity.plot import surface as plot_surface
 from asperity.scene import scan
 from asperity.scene.scan import Scan, read_filled, surface_spectrum
@@ -29,7 +29,7 @@ from asperity.self_affine_fit import SelfAffineFit, fit_self_affine
 from asperity.spectrum import TabulatedSpectrum
 from asperity.surface import HeightMap, LineScan
 from asperity.tiles.coarse import middle_tile, thinned
-from asperity.tiles.statistics import HeightStatistics, statistics_of
+from asperity.tiles.statistics import HeightStatistics, height_statistics
 
 _FLAGS = flags("pixel_size", "unit", "channel")
 _TILED = flags("tiles", "overlap", "threads", "max_dropouts", "window")
@@ -167,8 +167,8 @@ def _by_tiles(path: Path, args: Namespace) -> Measured:
         source = open_map(path, **_values(args, _FLAGS))
     with rename_in_errors(path, _TILED):
         in_tiles = _values(args, ("tiles", "overlap"))
-        measured = power_spectrum_of(source, **how, **in_tiles, max_dropouts=most, threads=threads)
-        statistics = statistics_of(source, how["detrend"] or "offset", threads=threads)
+        measured = power_spectrum(source, **how, **in_tiles, max_dropouts=most, threads=threads)
+        statistics = height_statistics(source, detrend=how["detrend"] or "offset", threads=threads)
         raw = thinned(source, threads=threads)
         filled = raw.fill_dropouts(max_fraction=0.999)
         tile = middle_tile(source, args.tiles, most)

@@ -23,6 +23,7 @@ from asperity.base.arguments import (
     real_array,
 )
 from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, must_be, refusal, valued
+from asperity.base.parameters import column
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.io.files import check_file, write_whole
@@ -54,13 +55,8 @@ class FrictionSlopes(Table):
         d mu / d ln |v| [-].
     """
 
-    dmu_dlnp: Any
-    dmu_dlnv: Any
-
-    def _columns(self) -> Columns:
-        axes = tuple(f"axis_{i}" for i in range(np.ndim(self.dmu_dlnp)))
-        names = ("dmu_dlnp", "dmu_dlnv")
-        return Columns({}, {name: Column(axes, getattr(self, name), "1") for name in names})
+    dmu_dlnp: Any = column("1")
+    dmu_dlnv: Any = column("1")
 
     def _draw(self, axes: Any) -> None:
         for name in ("dmu_dlnp", "dmu_dlnv"):

@@ -17,7 +17,15 @@ from asperity.base.arguments import Array
 from asperity.surface import HeightMap
 from asperity.tiles.grid import TileSides, tile_shape
 from asperity.tiles.share import Workers
-from asperity.tiles.source import DEFAULT, Box, Piece, Shape, Source, corner_of, refuse_infinite
+from asperity.tiles.source import (
+    DEFAULT,
+    Piece,
+    Shape,
+    Source,
+    boxes_of,
+    corner_of,
+    refuse_infinite,
+)
 
 _BLOCKS = 256  # of the coarse map in the shorter side of a tile
 _DIRECTIONS = 16  # in a quarter of a ring
@@ -45,12 +53,8 @@ class Coarse:
 def coarsen(source: Source, block: Shape, cell: Shape, workers: Workers) -> Coarse:
     """Read the whole map once, in cells of about that shape; points beyond the last block count
     as drop-outs or not, but are in no mean."""
-    steps = [h * max(1, side // h) for h, side in zip(block, cell, strict=True)]
-    boxes: list[Box] = [
-        (slice(y, min(y + steps[0], source.shape[0])), slice(x, min(x + steps[1], source.shape[1])))
-        for y in range(0, source.shape[0], steps[0])
-        for x in range(0, source.shape[1], steps[1])
-    ]
+    down, along = (h * max(1, side // h) for h, side in zip(block, cell, strict=True))
+    boxes = boxes_of(source.shape, (down, along))
     whole = tuple(side // h for side, h in zip(source.shape, block, strict=True))
     heights, missing = None, 0
     works = ((source.piece(box), block, corner_of(box)) for box in boxes)
@@ -158,7 +162,7 @@ def thinned(source: Source, *, threads: int = 1) -> HeightMap:
 
 def middle_tile(source: Source, tiles: TileSides, max_dropouts: float) -> HeightMap | None:
     """Return the tile in the middle, its drop-outs filled; None where it has too many."""
-    sides = tile_shape(tiles, source.shape, source.pixel_size)
+    sides = tile_shape(tiles, source)
     down, along = ((n - part) // 2 for n, part in zip(source.shape, sides, strict=True))
     box = slice(down, down + sides[0]), slice(along, along + sides[1])
     heights = source.piece(box).read()

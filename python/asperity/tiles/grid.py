@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from asperity import _core
 from asperity.base.arguments import Array, number, whole
 from asperity.base.diagnostics import refusal
-from asperity.tiles.source import Box, Shape
+from asperity.tiles.source import DEFAULT, Box, Shape, Source
 
 SMALLEST = 512  # points a side: the coarsened map, which gives what a tile is too short for, has
 # pixels of 1 / 256 of a tile, and is to be smaller than the map
@@ -71,8 +71,9 @@ def _pairs(mask: NDArray[np.bool_], down: int, along: int) -> int:
     return same if not (down or along) else 2 * same
 
 
-def tile_shape(tiles: Any, shape: Shape, pixel_size: tuple[float, float]) -> Shape:
+def tile_shape(tiles: Any, source: Source) -> Shape:
     """Return the sides of a tile, given as (ny, nx) or as one number for both."""
+    shape, pixel_size = source.shape, source.pixel_size
     try:
         ny, nx = tiles
     except TypeError:
@@ -93,12 +94,17 @@ def tile_shape(tiles: Any, shape: Shape, pixel_size: tuple[float, float]) -> Sha
     return sides
 
 
-def grid_of(shape: Shape, tile: Shape, overlap: Any) -> Grid:
-    """Return the fewest tiles of a shape that cover the map and overlap at least by that share."""
+def grid_of(source: Source, tiles: TileSides | None, overlap: Any) -> Grid:
+    """Return the fewest tiles that cover the map and overlap at least by that share; without their
+    sides those of the default, or of the map."""
+    sides = tuple(min(DEFAULT, side) for side in source.shape) if tiles is None else tiles
+    tile = tile_shape(sides, source)
     share = 0.5 if overlap is None else number(overlap, "overlap")
     if not 0 <= share <= MOST_OVERLAP:
         raise refusal("overlap", share, f"from 0 to {MOST_OVERLAP}", text=f"{share:.6g}")
-    down, along = (_starts(side, part, share) for side, part in zip(shape, tile, strict=True))
+    down, along = (
+        _starts(side, part, share) for side, part in zip(source.shape, tile, strict=True)
+    )
     return Grid(tile, (down, along))
 
 

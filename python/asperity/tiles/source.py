@@ -84,7 +84,9 @@ class Source:
 
 
 def source_of(surface: Any, pixel_size: Any, scale: float = 1.0) -> Source:
-    """Return the heights of a HeightMap or of an array, checked but not read."""
+    """Return the heights of a HeightMap or of an array, checked but not read; a source as it is."""
+    if isinstance(surface, Source):
+        return surface
     if isinstance(surface, LineScan):
         raise must_be("surface", "a map; a line scan has no tiles", " = a LineScan")
     if isinstance(surface, HeightMap):
@@ -145,6 +147,16 @@ def _is_group(candidate: Any) -> bool:
 def _shape(shape: Any) -> Shape:
     ny, nx = shape
     return int(ny), int(nx)
+
+
+def boxes_of(shape: Shape, step: Shape) -> list[Box]:
+    """Return the rectangles of that shape, smaller at the ends, that make up a map."""
+    (ny, nx), (down, along) = shape, step
+    return [
+        (slice(y, min(y + down, ny)), slice(x, min(x + along, nx)))
+        for y in range(0, ny, down)
+        for x in range(0, nx, along)
+    ]
 
 
 def refuse_infinite(heights: NDArray[Any], corner: Shape) -> None:

@@ -28,13 +28,12 @@ Columns = tuple[Any, ...]  # in the order of TabulatedSpectrum's arguments
 def tiled_spectrum(
     source: Source,
     grid: Grid,
-    *,
-    window: int,
-    detrend: int | None,
+    prepared: tuple[int, int | None],
     max_dropouts: Any,
     workers: Workers,
 ) -> TabulatedSpectrum:
-    """Return the spectrum of a map by tiles."""
+    """Return the spectrum of a map by tiles; `prepared` are the core's window and trend."""
+    window, detrend = prepared
     if window == _NONE:
         allowed = "one that ends at 0, as no tile is periodic"
         raise refusal("window", "none", allowed, text='"none"')

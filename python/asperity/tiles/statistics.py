@@ -4,15 +4,15 @@ One reading sums the normal equations of the surface, a second one the moments o
 """
 
 import math
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, choice, number
+from asperity.base.arguments import Array, choice
 from asperity.base.diagnostics import Argument, must_be
-from asperity.base.table import Column, Columns, Table
+from asperity.base.parameters import column
+from asperity.base.table import Table
 from asperity.base.value import value
 from asperity.surface import DETRENDS, Detrend, HeightMap, PixelSize
 from asperity.tiles.share import Workers
@@ -21,7 +21,7 @@ from asperity.tiles.source import (
     Box,
     Piece,
     Shape,
-    Source,
+    boxes_of,
     corner_of,
     refuse_infinite,
     source_of,
@@ -52,22 +52,14 @@ class HeightStatistics(Table):
         Share of the points that were not measured [-].
     """
 
-    mean: float
-    rms_height: float
-    rms_slope: float
-    skewness: float
-    kurtosis: float
-    z_max: float
-    z_min: float
-    dropout_fraction: float
-
-    def __post_init__(self) -> None:
-        self._set(**{name: number(entry, name) for name, entry in self._arguments().items()})
-
-    def _columns(self) -> Columns:
-        units = {"mean": "m", "rms_height": "m", "z_max": "m", "z_min": "m"}
-        known = self._arguments().items()
-        return Columns({}, {name: Column((), x, units.get(name, "1")) for name, x in known})
+    mean: float = column("m")
+    rms_height: float = column("m")
+    rms_slope: float = column("1")
+    skewness: float = column("1")
+    kurtosis: float = column("1")
+    z_max: float = column("m")
+    z_min: float = column("m")
+    dropout_fraction: float = column("1")
 
     def _draw(self, axes: Any) -> None:
         axes.axhspan(-self.rms_height, self.rms_height, alpha=0.3, label="± rms height")
@@ -121,19 +113,12 @@ def height_statistics(
         neighbours are measured.
     """
     source = source_of(surface, pixel_size)
-    return statistics_of(source, detrend, threads=threads, executor=executor)
-
-
-def statistics_of(
-    source: Source, detrend: Detrend, *, threads: int = 1, executor: Any = None
-) -> HeightStatistics:
-    """The same of a source."""
     order = DETRENDS[choice(detrend, "detrend", DETRENDS)]
     workers = Workers(threads, executor)
     if min(source.shape) < 3:
         allowed = "3 x 3 or more for central differences"
         raise must_be("heights", allowed, f" has shape {source.shape}")
-    boxes = list(_boxes(source.shape))
+    boxes = boxes_of(source.shape, (DEFAULT, DEFAULT))
     anchor = _anchor(source, boxes)
     works = ((source.piece(box), source.shape, corner_of(box), anchor) for box in boxes)
     sums = np.sum([*workers.outcomes(trend_sums, works)], axis=0)
@@ -151,13 +136,6 @@ def statistics_of(
         missing,
         source.pixel_size,
     )
-
-
-def _boxes(shape: Shape) -> Iterator[Box]:
-    ny, nx = shape
-    for y in range(0, ny, DEFAULT):
-        for x in range(0, nx, DEFAULT):
-            yield slice(y, min(y + DEFAULT, ny)), slice(x, min(x + DEFAULT, nx))
 
 
 def _wider(box: Box, shape: Shape) -> Box:
