@@ -13,15 +13,7 @@ from numpy.typing import ArrayLike
 from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
 from asperity.adhesion import Adhesion
-from asperity.base.arguments import (
-    Array,
-    brief,
-    broadcast,
-    choice,
-    flag,
-    path_of,
-    real_array,
-)
+from asperity.base.arguments import Array, brief, broadcast, choice, flag, path_of, real_array
 from asperity.base.diagnostics import MUST_BE, Argument, Note, fatal_first, must_be, refusal, valued
 from asperity.base.parameters import column
 from asperity.base.table import Column, Columns, Table
@@ -33,13 +25,11 @@ __all__ = ["FrictionMap", "FrictionSlopes"]
 Outside = Literal["error", "nan", "clamp"]
 POLICIES = ("error", "nan", "clamp")
 # of the core's look-ups, and of their status
+_PLACES = ("pressure", "velocity", "a_T", "temperature", "distance", "direction")
 _NAN, _CLAMP = 0, 1
-_PRESSURE_OUTSIDE, _VELOCITY_OUTSIDE, _TEMPERATURE_OUTSIDE = 1, 2, 4
+_OUTSIDE = {1: ("pressure", "Pa"), 2: ("velocity", "m/s"), 4: ("temperature", "K")}
 _MAGIC, _HEAD = b"ASPERMAP", 512
-# of a file's head, bytes from its beginning
-_TEXT_AT, _COLD_AT = 188, 144
-
-
+_TEXT_AT, _COLD_AT = 188, 144  # bytes from the beginning of a file's head
 NOTE_LINE = "note: "  # such a line of the text holds a note
 
 
@@ -88,15 +78,14 @@ def _look_up(name: str, told: str) -> Callable[..., Any]:
                 mu: float = self._core.mu_at(pressure, velocity)
                 if mu == mu:  # what is outside takes the long way round
                     return mu
-        given: dict[str, Any] = {"pressure": pressure, "velocity": velocity, "a_T": a_T}
-        given |= {"temperature": temperature, "distance": distance, "direction": direction}
-        if name == "derivatives":
-            by_p, by_v = self._query("slopes", given, shift_adhesion, outside)
-            return FrictionSlopes(dmu_dlnp=by_p, dmu_dlnv=by_v)
-        return self._query(name, given, shift_adhesion, outside)
+        places = pressure, velocity, a_T, temperature, distance, direction
+        result = self._query(name, places, shift_adhesion, outside)
+        if name != "slopes":
+            return result
+        return FrictionSlopes(dmu_dlnp=result[0], dmu_dlnv=result[1])
 
-    look_up.__name__ = name
-    look_up.__qualname__ = f"FrictionMap.{name}"
+    look_up.__name__ = "derivatives" if name == "slopes" else name
+    look_up.__qualname__ = f"FrictionMap.{look_up.__name__}"
     look_up.__doc__ = told
     return look_up
 
@@ -280,7 +269,7 @@ class FrictionMap(Table):
     )
 
     derivatives = _look_up(
-        "derivatives", "Return d mu / d ln p and d mu / d ln |v|, those of the stored polynomials."
+        "slopes", "Return d mu / d ln p and d mu / d ln |v|, those of the stored polynomials."
     )
 
     def sliding_length(
@@ -293,35 +282,27 @@ class FrictionMap(Table):
         """Return s0 [m], as `Friction.sliding_length` at a middle pressure; None without heat."""
         if self.temperature is None:
             choice(outside, "outside", POLICIES)
-            asked = {"velocity": velocity, "temperature": temperature}
-            self._check({key: one for key, one in asked.items() if one is not None}, False)
+            self._check({} if temperature is None else {"temperature": temperature}, False)
             real_array(velocity, "velocity")
             return None
-        middle = {"pressure": self.pressure[0], "velocity": velocity, "a_T": 1.0}
-        given = middle | {"temperature": temperature, "distance": None, "direction": None}
-        return self._query("sliding_length", given, False, outside)[0]
+        places = self.pressure[0], velocity, 1.0, temperature, None, None
+        return self._query("sliding_length", places, False, outside)[0]
 
     def _query(
-        self,
-        name: str,
-        given: dict[str, Any],
-        shift_adhesion: bool,
-        outside: Outside,
+        self, name: str, places: tuple[Any, ...], shift_adhesion: bool, outside: Outside
     ) -> Any:
         """Return one of the core's look-ups: its last axis in the shape of the arguments."""
         policy = choice(outside, "outside", POLICIES)
         shifts = flag(shift_adhesion, "shift_adhesion")
-        asked = {key: one for key, one in given.items() if one is not None}
+        given = zip(_PLACES, places, strict=True)
+        asked = {key: one for key, one in given if one is not None}
         self._check(asked, shifts)
         shape, flat = _columns_of(**asked)
         columns = dict(zip(asked, flat, strict=True))
         options = shifts, _CLAMP if policy == 2 else _NAN
-        result, first = getattr(self._core, name)([columns.get(key) for key in given], *options)
+        result, first = getattr(self._core, name)([*map(columns.get, _PLACES)], *options)
         if policy != 1 and first < result.shape[-1]:
-            point = {
-                key: column[first if np.size(column) > 1 else 0].item()
-                for key, column in ((key, np.atleast_1d(one)) for key, one in columns.items())
-            }
+            point = {key: float(np.resize(one, first + 1)[first]) for key, one in columns.items()}
             self._refuse(point, options, f"[{first}]" if shape else "")
         if not shape:
             return result[..., 0].item() if result.ndim == 1 else result[:, 0].tolist()
@@ -353,13 +334,8 @@ class FrictionMap(Table):
         heat = point.get("temperature", 0.0), point.get("distance", 0.0)
         turned = point.get("direction", 0.0)
         status = self._core.status(*places, *heat, turned, *options)
-        outside = {
-            _PRESSURE_OUTSIDE: ("pressure", "Pa"),
-            _VELOCITY_OUTSIDE: ("velocity", "m/s"),
-            _TEMPERATURE_OUTSIDE: ("temperature", "K"),
-        }
-        if status in outside:
-            name, unit = outside[status]
+        if status in _OUTSIDE:
+            name, unit = _OUTSIDE[status]
             lo, hi = getattr(self, name)
             shifted = name == "velocity" and point["a_T"] != 1
             rule = "a_T times it must be in" if shifted else "the map covers"
@@ -377,18 +353,16 @@ class FrictionMap(Table):
         raise InvalidInput(Argument(name), f"{index} = ", value, MUST_BE, rule)
 
     def _summary(self) -> dict[str, Any]:
-        return {
-            name: getattr(self, name) for name in ("pressure", "velocity", "max_error", "cells")
-        }
+        names = ("pressure", "velocity", "max_error", "cells")
+        return {name: getattr(self, name) for name in names}
 
     def _columns(self) -> Columns:
         p, v = np.geomspace(*self.pressure, 61), np.geomspace(*self.velocity, 121)
         # of several temperatures the lowest
         at = None if self.temperature is None else self.temperature[0]
-        given = {"pressure": p[:, None], "velocity": v, "a_T": 1.0, "temperature": at}
-        rows = self._query("points", given | {"distance": None, "direction": None}, False, "clamp")
+        rows = self._query("points", (p[:, None], v, 1.0, at, None, None), False, "clamp")
         axes = ("pressure", "velocity")
-        names: dict[str, int] = {"mu": 0, "hysteresis": 1, "adhesion": 2, "contact_area": 3}
+        names = {"mu": 0, "hysteresis": 1, "adhesion": 2, "contact_area": 3}
         names |= {"lateral": 6} if self.directional else {}
         return Columns(
             {"pressure": Column(axes[:1], p, "Pa"), "velocity": Column(axes[1:], v, "m/s")},
