@@ -2,10 +2,11 @@
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import suppress
+from contextlib import ExitStack, suppress
+from functools import partial
 from typing import Any, TypeVar
 
-from asperity.base.diagnostics import unfit
+from asperity.base.diagnostics import Error, unfit
 
 _UNTOLD = 8
 
@@ -37,40 +38,46 @@ def in_one_line(error: BaseException) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split())
 
 
+def submitted(executor: Any, function: Callable[..., Any], *arguments: Any) -> Any:
+    """Return the future of a call."""
+    try:
+        return executor.submit(function, *arguments)
+    except Exception as error:
+        raise Error(f"the executor takes no tasks: {in_one_line(error)}") from error
+
+
 Outcome = TypeVar("Outcome")
 
 
 def in_order(
-    steps: Iterable[Any],
-    draw: Callable[[], tuple[Any, ...]],
-    compute: Callable[..., Outcome],
-    threads: int,
+    function: Callable[..., Outcome],
+    works: Iterable[tuple[Any, ...]],
+    threads: int = 1,
+    executor: Any = None,
 ) -> Iterator[Callable[[], Outcome]]:
-    """Yield, for each step, what returns compute(*draw()) when it is called, or raises its error.
+    """Yield, for each work in turn, what returns function(*work) when it is called, or raises its
+    error: by this thread, by several, or by an executor of the user's.
 
-    Each is called before the next is asked for. `draw` runs in this thread alone, so that what it
-    draws is the same for any number of threads.
+    Each is called before the next is asked for. Works are made in this thread alone, so that what
+    they draw is the same for any number of threads, and few at once, as they may be large.
     """
-    if threads == 1:
-        for _ in steps:
-            yield lambda: compute(*draw())
+    if executor is None and threads == 1:
+        yield from (partial(function, *work) for work in works)
         return
-    from concurrent.futures import ThreadPoolExecutor  # here: `import asperity` is to be quick
+    with ExitStack() as stack:
+        room = 2 * (threads if executor is None else worker_count(executor))
+        if executor is None:
+            from concurrent.futures import ThreadPoolExecutor  # `import asperity` is to be quick
 
-    with ThreadPoolExecutor(threads) as pool:
-        pending: deque[Callable[[], Outcome]] = deque()
-        for _ in steps:
-            try:
-                pending.append(pool.submit(compute, *draw()).result)
-            except Exception as error:
-                pending.append(_raises(error))
-            if len(pending) > 2 * threads:  # no thread waits, and no more is kept than that
-                yield pending.popleft()
-        yield from pending
-
-
-def _raises(error: Exception) -> Callable[[], Any]:
-    def outcome() -> Any:
-        raise error
-
-    return outcome
+            executor = stack.enter_context(ThreadPoolExecutor(threads))
+        pending: deque[Any] = deque()
+        try:
+            for work in works:
+                pending.append(submitted(executor, function, *work))
+                if len(pending) >= room:
+                    yield pending.popleft().result
+            while pending:
+                yield pending.popleft().result
+        finally:
+            for future in pending:
+                future.cancel()

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from asperity._core import Error
-from asperity.base.executors import accepted, in_one_line, worker_count
+from asperity.base.executors import accepted, in_one_line, submitted, worker_count
 from asperity.base.table import imported
 
 _AGAIN = 2.0  # seconds between two questions how many workers there are
@@ -24,18 +24,14 @@ class Executor:
 
     def __init__(self, executor: Any = None) -> None:
         self._executor = executor
-        self._submit: Callable[..., Any] = _here
+        self._accepted = None if executor is None else accepted(executor)
         self._asked, self._workers = -_AGAIN, 1
-        if executor is None:
-            return
-        self._submit = accepted(executor).submit
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Any:
         """Return the future of a call."""
-        try:
-            return self._submit(function, *arguments)
-        except (BrokenExecutor, RuntimeError) as error:
-            raise Error(f"the executor takes no tasks: {error}") from error
+        if self._accepted is None:
+            return _here(function, *arguments)
+        return submitted(self._accepted, function, *arguments)
 
     @property
     def room(self) -> int:

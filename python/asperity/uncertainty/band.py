@@ -300,17 +300,21 @@ def relative_band(
         centre = at_points(spectrum.plain, rubber.plain, adhesion).mu
 
     def draw() -> tuple[Any, ...]:
-        surface, solid = spectrum(rng), rubber(rng)
-        if refit is None:
-            added = draw_adhesion(adhesion, rng)
-        else:  # on a scan as it is: no contact is solved for a draw
-            of_fit = rubber.plain if held else solid
-            added = refit(fitted_on if held else surface, of_fit.rubber, rng)
-        softer = draw_strain(softening, rng)
-        return surface, solid, added, softer, held.draw() if held else 0.0
+        try:
+            surface, solid = spectrum(rng), rubber(rng)
+            if refit is None:
+                added = draw_adhesion(adhesion, rng)
+            else:  # on a scan as it is: no contact is solved for a draw
+                of_fit = rubber.plain if held else solid
+                added = refit(fitted_on if held else surface, of_fit.rubber, rng)
+            softer = draw_strain(softening, rng)
+            return held.draw() if held else 0.0, surface, solid, added, softer
+        except _FAILURES as error:
+            return (error,)
 
-    def curve(*inputs: Any) -> Any:
-        *parts, scatter = inputs
+    def curve(scatter: Any, *parts: Any) -> Any:
+        if not parts:  # the draw itself failed
+            raise scatter
         result = at_points(*parts)
         return held.mu(result, scatter) if held else result.mu
 
@@ -318,7 +322,7 @@ def relative_band(
     problem: Exception | None = None
     failed = 0
     with progress(range(samples)) as shown:
-        for outcome in in_order(shown, draw, curve, threads):
+        for outcome in in_order(curve, (draw() for _ in shown), threads):
             try:
                 curves.append(outcome())
             except _FAILURES as error:
