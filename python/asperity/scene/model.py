@@ -36,6 +36,7 @@ from asperity.scene.rubber import BuiltRubber
 from asperity.scene.surface import Surface
 from asperity.spectrum import Spectrum
 from asperity.uncertainty.band import Bounds, DrawAdhesion, relative_band, swept_band
+from asperity.uncertainty.draws import Inputs
 
 COLUMNS = ("mu", "hysteresis", "adhesion", "contact_area", "shift_factor", "error_estimate")
 _SAMPLING = names_of("uncertainty", UNCERTAINTY)
@@ -267,29 +268,21 @@ class Scene:
         self, mu: Array, progress: Progress = nullcontext, refit: DrawAdhesion | None = None
     ) -> Bounds:
         """Lower and upper mu, of the shape of `mu`, as the standard errors would have it."""
-        with self._inputs() as (surface, rubber, adhesion, options):
-            band = swept_band(
-                surface,
-                rubber,
-                adhesion,
-                self.pressure,
-                self.velocity,
-                options,
-                progress=with_contacts(progress, self.correction),
-                refit=refit,
-                **self.sampling,
-            )
+        with self._inputs() as inputs:
+            progress = with_contacts(progress, self.correction)
+            points = self.pressure, self.velocity
+            band = swept_band(inputs, *points, progress=progress, refit=refit, **self.sampling)
         return Bounds(mu * band.lower, mu * band.upper, band.notes)
 
     def band_at(self, pressure: Array, velocity: Array) -> Bounds:
         """The band at points of one's own, over their mu."""
-        with self._inputs() as (surface, rubber, adhesion, options):
-            options |= {"pressure": pressure, "velocity": velocity}
-            return relative_band(surface, rubber, adhesion, options, **self.sampling)
+        with self._inputs() as inputs:
+            at_points = inputs.with_options(pressure=pressure, velocity=velocity)
+            return relative_band(at_points, **self.sampling)
 
     @contextmanager
-    def _inputs(self) -> Iterator[tuple[Any, Any, Adhesion | None, dict[str, Any]]]:
-        """Surface, rubber and adhesion as they are drawn, and the options of `friction`."""
+    def _inputs(self) -> Iterator[Inputs]:
+        """What a band is drawn of, without points."""
         held = ("poisson_ratio", "form", "strain_factors", "direction")
         options = {name: self.options[name] for name in held if name in self.options}
         options["correction"] = self.correction
@@ -301,7 +294,7 @@ class Scene:
             options |= {"temperature": temperature, "heating": self.heating}
             rubber = known(built.drawn_at_reference)
         with rename_in_errors(self.path, {**NAMES, **_SAMPLING}, self.typed):
-            yield self.surface.drawn, rubber, self.adhesion, options
+            yield Inputs(self.surface.drawn, rubber, self.adhesion, options)
 
     def contact_area(self, wavenumber: Array, progress: Progress = nullcontext) -> Array:
         """A/A0 of shape (pressures, velocities, wavenumbers); `progress` as in `friction`."""

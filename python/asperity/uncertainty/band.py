@@ -19,7 +19,7 @@ from asperity.base.arguments import (
     shaped,
     whole,
 )
-from asperity.base.diagnostics import MUST_BE, Argument, Note, refusal, valued
+from asperity.base.diagnostics import Argument, Note, refusal
 from asperity.base.executors import in_order
 from asperity.base.parameters import column
 from asperity.base.table import Table
@@ -37,8 +37,8 @@ from asperity.shift_factors import TemperatureShift
 from asperity.spectrum import Spectrum
 from asperity.sweeps import StrainFactors, strain_core
 from asperity.uncertainty.draws import (
-    Drawn,
     Generator,
+    Inputs,
     ShiftedRubber,
     draw_adhesion,
     draw_strain,
@@ -227,13 +227,10 @@ def friction_band(
     result = friction(plain, of_build, adhesion=adhesion, shift=shift, **given_at, **options)
     shape, columns = broadcast(**given_at)
     at = dict(zip(given_at, map(np.atleast_1d, columns), strict=True))
-    if choice(method, "method", Method):
-        source = rubber if isinstance(rubber, MasterCurveBuild) else of_build
-        linear = linear_band(surface, source, adhesion, at, {**options, "shift": shift}, level)
-        return _band(result, Bounds(*linear), shape, level, samples=0)
+    linear = bool(choice(method, "method", Method))
     how: dict[str, Any] = {"samples": samples, "seed": seed, "level": level, "threads": threads}
-    band = relative_band(surface, solid, adhesion, options | at, **how)
-    return _band(result, band, shape, level, samples)
+    band = relative_band(Inputs(surface, solid, adhesion, options | at), method=method, **how)
+    return _band(result, band, shape, level, 0 if linear else samples)
 
 
 def _band(result: Friction, band: Bounds, shape: Shape, level: float, samples: int) -> FrictionBand:
@@ -251,10 +248,7 @@ def _band(result: Friction, band: Bounds, shape: Shape, level: float, samples: i
 
 
 def relative_band(
-    spectrum: Drawn[Spectrum],
-    rubber: Drawn[ShiftedRubber],
-    adhesion: Adhesion | None,
-    options: dict[str, Any],
+    inputs: Inputs,
     *,
     samples: int,
     seed: int,
@@ -262,22 +256,22 @@ def relative_band(
     progress: Callable[[Any], AbstractContextManager[Any]] = nullcontext,
     refit: DrawAdhesion | None = None,
     threads: int = 1,
-    method: str = "draws",
+    method: Method = "draws",
 ) -> Bounds:
     """Return quantiles of mu of drawn inputs over mu of the plain ones; 1 without friction.
 
     `refit` gives the adhesion that goes with a drawn spectrum and rubber.
     """
+    if not 0 < number(level, "level") < 1:
+        raise refusal("level", level, "in (0, 1)", text=f"{level}")
     if method == "linear":
-        return _linear(spectrum, rubber, adhesion, options, level, refit)
+        return Bounds(*linear_band(inputs, level, refitted=refit is not None))
     whole(samples, "samples", lowest=20)
     whole(seed, "seed")
     whole(threads, "threads", lowest=1, highest=MOST_THREADS)
-    if not 0 < number(level, "level") < 1:
-        raise refusal("level", level, "in (0, 1)", text=f"{level}")
     rng = np.random.default_rng(seed)
+    spectrum, rubber, adhesion, options = inputs
     options = {**options, "rtol": 1e-4}  # a band is read to two digits
-
     softening = options.pop("strain_factors", None)
 
     def at_points(
@@ -337,51 +331,20 @@ def relative_band(
     return Bounds(lower, upper, notes)
 
 
-def _linear(
-    spectrum: Drawn[Spectrum],
-    rubber: Drawn[ShiftedRubber],
-    adhesion: Adhesion | None,
-    options: dict[str, Any],
-    level: float,
-    refit: DrawAdhesion | None,
-) -> Bounds:
-    """Return the same from slopes."""
-    named = Argument("method"), " = ", valued("linear", '"linear"'), MUST_BE
-    if refit is not None:
-        raise InvalidInput(*named, '"draws" where each draw is fitted anew')
-    if rubber.draw is not None and rubber.source is None:
-        raise InvalidInput(*named, '"draws" with a Prony fit of isotherms, or a vertical shift')
-    solid = rubber.plain.rubber if rubber.source is None else rubber.source
-    names = ("pressure", "velocity", "temperature")
-    size = np.size(options["pressure"])
-    at = {name: np.broadcast_to(options[name], size) for name in names if name in options}
-    if rubber.source is None:
-        options = {**options, "shift": rubber.plain.shift}
-    return Bounds(*linear_band(spectrum, solid, adhesion, at, options, level))
-
-
 def _left_out(failed: int, samples: int, problem: Exception) -> Note:
     text = f"the band leaves out {failed} of {samples} draws that failed, the last with: {problem}"
     return Note(text, code="failed-draws")
 
 
-def swept_band(
-    spectrum: Drawn[Spectrum],
-    rubber: Drawn[ShiftedRubber],
-    adhesion: Adhesion | None,
-    pressure: Array,
-    velocity: Array,
-    options: dict[str, Any],
-    **sampling: Any,
-) -> Bounds:
+def swept_band(inputs: Inputs, pressure: Array, velocity: Array, **sampling: Any) -> Bounds:
     """`relative_band` at every pressure and velocity, of shape (pressures, velocities): computed at
     a few velocities, and between them over ln v."""
     few = np.unique(velocity)
     if few.size > _SWEPT:
         few = np.geomspace(few[0], few[-1], _SWEPT)
     p, v = np.meshgrid(pressure, few, indexing="ij")
-    points = {"pressure": p.ravel(), "velocity": v.ravel()}
-    band = relative_band(spectrum, rubber, adhesion, {**options, **points}, **sampling)
+    at_few = inputs.with_options(pressure=p.ravel(), velocity=v.ravel())
+    band = relative_band(at_few, **sampling)
 
     def everywhere(bound: Array) -> Array:
         rows = bound.reshape(p.shape)

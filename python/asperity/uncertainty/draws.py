@@ -47,6 +47,18 @@ class Drawn(Generic[Input]):
         return self.plain if self.draw is None else self.draw(rng)
 
 
+class Inputs(NamedTuple):
+    """What a band is drawn of, and the other arguments of `friction`, points among them."""
+
+    spectrum: Drawn[Spectrum]
+    rubber: Drawn[ShiftedRubber]
+    adhesion: Adhesion | None
+    options: dict[str, Any]
+
+    def with_options(self, **more: Any) -> "Inputs":
+        return self._replace(options=self.options | more)
+
+
 def drawn_spectrum(source: Spectrum | SelfAffineFit) -> Drawn[Spectrum]:
     """A fit from the covariance of its parameters; a table from the errors of its rows, in bins: a
     band needs no more of them. Rows that know directions stay, and move with the bins."""

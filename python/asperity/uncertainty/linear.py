@@ -11,17 +11,16 @@ import numpy as np
 
 from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, AdhesionFit
-from asperity.base.arguments import Array, number
-from asperity.base.diagnostics import Argument, Note, refusal
-from asperity.dma import MasterCurveBuild, master_curve_modes, rubber_of
+from asperity.base.arguments import Array, known
+from asperity.base.diagnostics import MUST_BE, Argument, Note, valued
+from asperity.dma import MasterCurveBuild, master_curve_modes
 from asperity.friction import Friction, friction
-from asperity.results.gradients import Gradients
 from asperity.rubber import MasterCurve, Rubber
 from asperity.scan_contact import ScanContact
 from asperity.self_affine_fit import AnySpectrum, SelfAffineFit
 from asperity.spectrum import SelfAffineSpectrum, Spectrum, TabulatedSpectrum
 from asperity.uncertainty.draws import (
-    Drawn,
+    Inputs,
     adhesion_covariance,
     fit_covariance,
     moved_adhesion,
@@ -49,18 +48,17 @@ class _Input:
 
 
 def linear_band(
-    spectrum: Drawn[Spectrum],
-    rubber: Rubber | MasterCurveBuild,
-    adhesion: Adhesion | None,
-    at: dict[str, Array],
-    options: dict[str, Any],
-    level: float,
+    inputs: Inputs, level: float, *, refitted: bool
 ) -> tuple[Array, Array, tuple[Note, ...]]:
     """Return both ends of a band over mu at flat points, one temperature after another, and where
     slopes are not good enough. A build is taken at its reference, or at the temperatures."""
-    if not 0 < number(level, "level") < 1:
-        raise refusal("level", level, "in (0, 1)", text=f"{level}")
-    of_scan = isinstance(options["correction"], ScanContact)
+    spectrum, rubber, _, options = inputs
+    named = Argument("method"), " = ", valued("linear", '"linear"'), MUST_BE
+    if refitted:
+        raise InvalidInput(*named, '"draws" where each draw is fitted anew')
+    if rubber.draw is not None and rubber.source is None:
+        raise InvalidInput(*named, '"draws" with a Prony fit of isotherms, or a vertical shift')
+    of_scan = isinstance(options.get("correction"), ScanContact)
     for name in ("correction" * of_scan, "heating", "strain_factors"):
         if name and (one := options.get(name)) is not None:
             text = f': {type(one).__name__} has no linear band, take method="draws"'
@@ -68,55 +66,53 @@ def linear_band(
     if spectrum.plain.is_directional:
         text = ': knows directions, whose errors have no linear band, take method="draws"'
         raise InvalidInput(Argument("spectrum"), text)
-    names = ("poisson_ratio", "correction", "form", "shift")
-    options = {name: options[name] for name in names if name in options} | {"rtol": 1e-4}
-    of_build = isinstance(rubber, MasterCurveBuild) and options.get("shift") is None
-    if of_build and "temperature" in at:
-        options["shift"] = rubber
-    size = at["pressure"].size
-    kelvin = np.broadcast_to(at.get("temperature", 0.0), size)
+    names = ("poisson_ratio", "correction", "form")
+    kept = {name: options[name] for name in names if name in options}
+    size = np.size(options["pressure"])
+    places = [name for name in ("pressure", "velocity", "temperature") if name in options]
+    at = {name: np.broadcast_to(options[name], size) for name in places}
+    kelvin = at.get("temperature", np.zeros(size))
     deviation, curved = np.empty(size), np.empty(size)
     for t in np.unique(kelvin):
         here = np.flatnonzero(kelvin == t)
-        points = {name: column[here] for name, column in at.items()}
-        own = float(t) if of_build and "temperature" in at else None
-        deviation[here], curved[here] = _deviation(
-            spectrum, rubber, adhesion, own, {**options, **points}
-        )
+        points: dict[str, Any] = {name: column[here] for name, column in at.items()}
+        at_points = inputs._replace(options={**kept, **points, "rtol": 1e-4})
+        deviation[here], curved[here] = _deviation(at_points)
     away = np.exp(NormalDist().inv_cdf((1 + level) / 2) * deviation)
     return 1 / away, away, _curvature_notes(curved)
 
 
-def _deviation(
-    spectrum: Drawn[Spectrum],
-    rubber: Rubber | MasterCurveBuild,
-    adhesion: Adhesion | None,
-    temperature: float | None,
-    options: dict[str, Any],
-) -> tuple[Array, Array]:
-    """Return the standard deviation of ln mu at the points of `options`, and by how many of it mu
+def _deviation(inputs: Inputs) -> tuple[Array, Array]:
+    """Return the standard deviation of ln mu at points of one temperature, and by how many of it mu
     leaves the slopes where every mode is at one of its own, with signs at random and opposite."""
-    plain = spectrum.plain
-    inputs: dict[str, _Input] = {}
-    result = friction(plain, rubber_of(rubber), adhesion=adhesion, gradients=True, **options)
-    if (surface := _surface(spectrum.source, plain)) is not None:
-        inputs["spectrum"] = surface
-    if isinstance(rubber, MasterCurveBuild):
-        inputs["rubber"] = _rubber(rubber, result, adhesion, temperature)
+    spectrum, solid, adhesion, options = inputs
+    inputs_of: dict[str, _Input] = {}
+    build, shift = solid.source, solid.plain.shift
+    options = {**options, "shift": shift}
+    plain: dict[str, Any] = {
+        "spectrum": spectrum.plain,
+        "rubber": solid.plain.rubber,
+        "adhesion": adhesion,
+    }
+    result = friction(**plain, gradients=True, **options)
+    if (surface := _surface(spectrum.source, spectrum.plain)) is not None:
+        inputs_of["spectrum"] = surface
+    if build is not None:
+        own = options["temperature"][0] if shift is build else None
+        inputs_of["rubber"] = _rubber(build, result, adhesion, own)
     if isinstance(adhesion, AdhesionFit):
-        inputs["adhesion"] = _adhesion(adhesion)
+        inputs_of["adhesion"] = _adhesion(adhesion)
     mu = np.where(result.mu > 0, result.mu, 1.0)[:, None]
-    parts = {name: one.parts(result) / mu for name, one in inputs.items()}
+    parts = {name: one.parts(result) / mu for name, one in inputs_of.items()}
     deviation = np.sqrt(sum((of**2).sum(axis=1) for of in parts.values()))
     rng = np.random.default_rng(0)
-    signs = {name: rng.choice([-1.0, 1.0], len(one.modes)) for name, one in inputs.items()}
+    signs = {name: rng.choice([-1.0, 1.0], len(one.modes)) for name, one in inputs_of.items()}
     toward = sum(of @ signs[name] for name, of in parts.items())
     off = []
     for way in (1, -1):
-        moved = {name: one.moved(way * signs[name] @ one.modes) for name, one in inputs.items()}
-        given = {"spectrum": plain, "rubber": rubber_of(rubber), "adhesion": adhesion, **moved}
+        moved = {name: one.moved(way * signs[name] @ one.modes) for name, one in inputs_of.items()}
         with np.errstate(divide="ignore", invalid="ignore"):
-            change = np.log(friction(**given, **options).mu / result.mu)
+            change = np.log(friction(**{**plain, **moved}, **options).mu / result.mu)
         off.append(change - way * toward)
     curved = np.abs(off).max(axis=0) / (deviation + _LEAST)
     return deviation, np.where(result.mu > 0, curved, 0.0)
@@ -142,7 +138,7 @@ def _surface(source: AnySpectrum | None, plain: Spectrum) -> _Input | None:
     table, weight = plain, _weights(plain.wavenumber)
     return _Input(
         _root(row_covariance(table)),
-        lambda result: _of(result).spectrum * weight,
+        lambda result: known(result.gradients).spectrum * weight,
         lambda by: rows_like(table, table.density * np.exp(by)),
     )
 
@@ -161,7 +157,7 @@ def _law(fit: SelfAffineFit, plain: Spectrum) -> _Input:
     of_height = np.array([(height(one) - height(-one)) / 2e-4 for one in step])
 
     def slopes(result: Friction) -> Array:
-        of = _of(result)
+        of = known(result.gradients)
         beside = [0 * of.hurst, of.hurst / fit.hurst, *([of.rolloff] if fit.rolloff else [])]
         both: Array = of.rms_height[:, None] * of_height + np.stack(beside, axis=-1)
         return both
@@ -176,7 +172,7 @@ def _rubber(
     temperature: float | None,
 ) -> _Input:
     """ln E' and ln E'' at the rows of the slopes, and ln a_T at the temperature."""
-    curve, w = build.master_curve, _of(result).angular_frequency
+    curve, w = build.master_curve, known(result.gradients).angular_frequency
     storage, loss, decades = master_curve_modes(build, w)
     shift = np.zeros((len(storage), 1))
     if temperature is not None:  # between isotherms about as their neighbours
@@ -185,7 +181,7 @@ def _rubber(
     weight = _weights(w)
 
     def slopes(result: Friction) -> Array:
-        of = _of(result)
+        of = known(result.gradients)
         by_shift = of.velocity - _adhesion_over_velocity(result, adhesion)
         return np.hstack([of.storage * weight, of.loss * weight, by_shift[:, None]])
 
@@ -214,16 +210,11 @@ def _adhesion_over_velocity(result: Friction, adhesion: Adhesion | None) -> Any:
 
 def _adhesion(fit: AdhesionFit) -> _Input:
     def slopes(result: Friction) -> Array:
-        of = _of(result)
+        of = known(result.gradients)
         width = of.width / fit.width if fit.width else np.zeros_like(of.width)
         return np.stack([of.shear_stress, of.reference_velocity, width], axis=-1)
 
     return _Input(_root(adhesion_covariance(fit)), slopes, partial(moved_adhesion, fit))
-
-
-def _of(result: Friction) -> Gradients:
-    assert result.gradients is not None
-    return result.gradients
 
 
 def _weights(rows: Array) -> Array:

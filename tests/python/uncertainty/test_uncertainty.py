@@ -24,7 +24,13 @@ from asperity import (
 from asperity.cli.main import main
 from asperity.scene.scene import load_scene
 from asperity.uncertainty.band import relative_band, swept_band
-from asperity.uncertainty.draws import Drawn, ShiftedRubber, drawn_rubber, drawn_spectrum
+from asperity.uncertainty.draws import (
+    Drawn,
+    Inputs,
+    ShiftedRubber,
+    drawn_rubber,
+    drawn_spectrum,
+)
 from helpers.heat import HEATING, LAW
 from helpers.rubbers import curve_of, prony
 
@@ -224,18 +230,20 @@ def failing(every, kind):
 
 @pytest.mark.parametrize("kind", ["draw", "curve"])
 def test_a_band_says_how_many_draws_it_left_out(kind):
-    parts = drawn_spectrum(measured_spectrum(3)), None, {"pressure": 2e5, "velocity": 1e-3}
+    at = {"pressure": 2e5, "velocity": 1e-3}
+
+    def inputs(every):
+        return Inputs(drawn_spectrum(measured_spectrum(3)), failing(every, kind), None, at)
+
     how = {"samples": 40, "seed": 1, "level": 0.9}
-    alone, shared = (
-        relative_band(parts[0], failing(15, kind), *parts[1:], **how, threads=n) for n in (1, 3)
-    )
+    alone, shared = (relative_band(inputs(15), **how, threads=n) for n in (1, 3))
     np.testing.assert_array_equal([alone.lower, alone.upper], [shared.lower, shared.upper])
     (note,) = alone.notes
     assert shared.notes == (note,)
     assert note.startswith("the band leaves out 2 of 40 draws that failed, the last with: velocity")
-    assert relative_band(parts[0], failing(41, kind), *parts[1:], **how).notes == ()
+    assert relative_band(inputs(41), **how).notes == ()
     with pytest.raises(OutOfRange, match=r"^velocity = "):
-        relative_band(parts[0], failing(5, kind), *parts[1:], **how)
+        relative_band(inputs(5), **how)
 
 
 def test_without_friction_the_band_has_no_width():
@@ -320,11 +328,11 @@ def test_a_scene_that_asks_for_a_band_has_two_more_columns(scene, tmp_path):
 
 def test_between_its_velocities_a_band_runs_straight_over_ln_v():
     velocity = np.geomspace(1e-6, 1e2, 25)  # every other one of the 13 that are computed
-    parts = drawn_spectrum(measured_spectrum(3)), drawn_rubber(RUBBER), None
+    inputs = Inputs(drawn_spectrum(measured_spectrum(3)), drawn_rubber(RUBBER), None, {})
     how = {"samples": 20, "seed": 1, "level": 0.9}
     points = {"pressure": np.full(25, 2e5), "velocity": velocity}
-    direct = relative_band(*parts, points, **how)
-    swept = swept_band(*parts, np.array([2e5]), velocity, {}, **how)
+    direct = relative_band(inputs.with_options(**points), **how)
+    swept = swept_band(inputs, np.array([2e5]), velocity, **how)
     for exact, (result,) in zip(direct[:2], swept[:2], strict=True):
         np.testing.assert_allclose(result[::2], exact[::2], rtol=1e-9)
         np.testing.assert_allclose(result[1::2], (result[:-1:2] + result[2::2]) / 2, rtol=1e-12)
