@@ -1,8 +1,9 @@
 """What the article states, and what stands in for what it does not publish."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -45,31 +46,17 @@ class Model:
 
     def area(self, zeta: Array, correction: Correction | None = None) -> Array:
         """A/A0 at 0.1 m/s, at the three pressures (rows) and at magnifications."""
-        return np.asarray(
-            contact_area(
-                self.surface,
-                self.rubber,
-                pressure=PRESSURES,
-                velocity=VELOCITY,
-                correction=correction,
-                wavenumber=zeta * Q0,
-            )
-        )
+        return self._over(contact_area, zeta, correction, PRESSURES)
 
     def cf(
         self, zeta: Array, correction: Correction, pressure: Sequence[float] = PRESSURES
     ) -> Array:
         """CF at 0.1 m/s, at pressures (rows) and at magnifications."""
-        return np.asarray(
-            correction_factor(
-                self.surface,
-                self.rubber,
-                pressure=pressure,
-                velocity=VELOCITY,
-                correction=correction,
-                wavenumber=zeta * Q0,
-            )
-        )
+        return self._over(correction_factor, zeta, correction, pressure)
+
+    def _over(self, of: Callable[..., Any], zeta: Array, correction: Any, pressure: Any) -> Array:
+        theory, at = (self.surface, self.rubber), {"pressure": pressure, "velocity": VELOCITY}
+        return np.asarray(of(*theory, **at, correction=correction, wavenumber=zeta * Q0))
 
 
 @dataclass(frozen=True, eq=False)

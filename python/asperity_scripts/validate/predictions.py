@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from statistics import NormalDist
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from asperity.correction import (
     LocalPeaks,
     NayakSFactor,
     PeaksThenGreenwoodWilliamson,
+    Reading,
     SFactor,
 )
 from asperity.friction import friction
@@ -35,7 +36,6 @@ class Model:
     name: str
     call: str  # how it is made
     correction: Callable[[Contact], Correction | None]
-    asperities: bool = False  # needs the macro-asperities' wavenumber
 
 
 def _peaks(distance: str) -> Callable[[Contact], Correction | None]:
@@ -43,13 +43,9 @@ def _peaks(distance: str) -> Callable[[Contact], Correction | None]:
     return lambda c: LocalPeaks([c.peaks[distance]] * 3, z_max=c.z_max)
 
 
-def _greenwood_williamson(reading: str) -> Callable[[Contact], Correction | None]:
+def _greenwood_williamson(reading: Reading) -> Callable[[Contact], Correction | None]:
     return lambda c: GreenwoodWilliamson(
-        z_max=c.z_max,
-        z_min=c.z_min,
-        rms_height=c.rms_height,
-        q0=c.q0,
-        reading="added" if reading == "added" else "implicit",
+        z_max=c.z_max, z_min=c.z_min, rms_height=c.rms_height, q0=c.q0, reading=reading
     )
 
 
@@ -59,7 +55,7 @@ def _both(distance: str) -> Callable[[Contact], Correction | None]:
     )
 
 
-MODELS = (
+_ALONE = (
     Model("none", "None", lambda _: None),
     Model("S in Eq. 22, 0.40", "SFactor(gamma=0.4)", lambda _: SFactor(gamma=0.4)),
     Model("S in Eq. 22, 0.50", "SFactor(gamma=0.5)", lambda _: SFactor(gamma=0.5)),
@@ -77,37 +73,19 @@ MODELS = (
     Model("Nayak S", "NayakSFactor()", lambda _: NayakSFactor()),
     Model("shift 1.5", "AffineShift(1.5)", lambda _: AffineShift(1.5)),
     Model("shift 2", "AffineShift(2)", lambda _: AffineShift(2)),
-    Model(
-        "peaks, lambda0",
-        "LocalPeaks(map, min_distance=lambda0)",
-        _peaks("lambda0"),
-        asperities=True,
-    ),
-    Model(
-        "peaks, lambda0/2",
-        "LocalPeaks(map, min_distance=lambda0/2)",
-        _peaks("lambda0/2"),
-        asperities=True,
-    ),
-    Model(
-        "IGW implicit",
-        "GreenwoodWilliamson(...)",
-        _greenwood_williamson("implicit"),
-        asperities=True,
-    ),
-    Model(
-        "IGW added",
-        'GreenwoodWilliamson(..., reading="added")',
-        _greenwood_williamson("added"),
-        asperities=True,
-    ),
+)
+_OF_ASPERITIES = (  # which need their wavenumber
+    Model("peaks, lambda0", "LocalPeaks(map, min_distance=lambda0)", _peaks("lambda0")),
+    Model("peaks, lambda0/2", "LocalPeaks(map, min_distance=lambda0/2)", _peaks("lambda0/2")),
+    Model("IGW implicit", "GreenwoodWilliamson(...)", _greenwood_williamson("implicit")),
+    Model("IGW added", 'GreenwoodWilliamson(..., reading="added")', _greenwood_williamson("added")),
     Model(
         "peaks, then IGW",
         "PeaksThenGreenwoodWilliamson(map, min_distance=lambda0/2)",
         _both("lambda0/2"),
-        asperities=True,
     ),
 )
+MODELS = (*_ALONE, *_OF_ASPERITIES)
 
 
 @dataclass(frozen=True)
@@ -132,24 +110,16 @@ class Prediction:
         return self.area_error if quantity == "area" else self.energy_error
 
 
-def models_for(contacts: Sequence[Contact]) -> list[Model]:
+def models_for(contacts: Sequence[Contact]) -> tuple[Model, ...]:
     """Those whose input is known of all contacts."""
     known = all(contact.q0 is not None for contact in contacts)
-    return [model for model in MODELS if known or not model.asperities]
+    return MODELS if known else _ALONE
 
 
 def predict(contact: Contact, model: Model) -> Prediction:
     """Area at q1 and elastic energy of a contact."""
     correction = model.correction(contact)
-    # an elastic contact does not know its velocity, and E* is that of Poisson's ratio 0
-    result = friction(
-        contact.spectrum,
-        _solid(contact),
-        pressure=contact.pressure,
-        velocity=1.0,
-        poisson_ratio=0.0,
-        correction=correction,
-    )
+    result = _of(friction, contact, correction)
     return Prediction(
         contact,
         model,
@@ -159,10 +129,14 @@ def predict(contact: Contact, model: Model) -> Prediction:
     )
 
 
-def _solid(contact: Contact) -> PronySeries:
-    return PronySeries(
+def _of(theory: Callable[..., Any], contact: Contact, correction: Any, **more: Any) -> Any:
+    """What the theory says of a contact, which does not know its velocity; E* is the modulus of
+    Poisson's ratio 0."""
+    solid = PronySeries(
         equilibrium_modulus=contact.effective_modulus, moduli=[], relaxation_times=[]
     )
+    at = {"pressure": contact.pressure, "velocity": 1.0, "poisson_ratio": 0.0}
+    return theory(contact.spectrum, solid, **at, correction=correction, **more)
 
 
 def energy(contact: Contact, correction: Correction | None) -> float:
@@ -174,15 +148,7 @@ def energy(contact: Contact, correction: Correction | None) -> float:
     if isinstance(correction, SFactor) and correction.applies_to == "area":
         correction = None  # which leaves Eq. 22 alone
     q, weight = _nodes(contact.spectrum)
-    factor = correction_factor(
-        contact.spectrum,
-        _solid(contact),
-        pressure=contact.pressure,
-        velocity=1.0,
-        poisson_ratio=0.0,
-        correction=correction,
-        wavenumber=q,
-    )
+    factor = _of(correction_factor, contact, correction, wavenumber=q)
     total = np.sum(weight * q**2 * contact.spectrum.at(q) * factor)
     return float(math.pi / 2 * contact.effective_modulus * total)
 
