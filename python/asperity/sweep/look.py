@@ -18,24 +18,22 @@ _SCENE = "_scene"
 _AGREE = 1e-6  # relative, of a number that was typed and a coordinate
 
 
-def choose(dataset: Any, at: Mapping[str, str], option: str = "--at") -> Any:
+def choose(dataset: Any, at: Mapping[str, str]) -> Any:
     """The dataset where coordinates have the values that were typed."""
     for name, text in at.items():
         if name not in dataset.sizes:
             known = dict.fromkeys(map(str, dataset["failure"].dims))
-            raise InvalidInput(
-                Argument(f"{option} {name}"), f": is no axis, {nearest(name, known)}"
-            )
-        dataset = dataset.isel({name: _index(dataset[name].values, name, text, option)})
+            raise InvalidInput(Argument(f"--at {name}"), f": is no axis, {nearest(name, known)}")
+        dataset = dataset.isel({name: _index(dataset[name].values, name, text)})
     return dataset
 
 
-def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
+def _index(values: NDArray[Any], name: str, text: str) -> int:
     if values.dtype.kind in "fiu":
         try:
             wanted = float(text)
         except ValueError:
-            raise refusal(f"{option} {name}", text, "a number", text=text) from None
+            raise refusal(f"--at {name}", text, "a number", text=text) from None
         index = int(np.abs(values - wanted).argmin())
         if abs(values[index] - wanted) <= _AGREE * abs(wanted):
             return index
@@ -46,7 +44,7 @@ def _index(values: NDArray[Any], name: str, text: str, option: str) -> int:
             return list(known).index(text)
     shown = list(known)
     allowed = ", ".join(shown if len(shown) <= 12 else [*shown[:6], "...", *shown[-5:]])
-    about = Argument(f"{option} {name}"), " = ", valued(text, text)
+    about = Argument(f"--at {name}"), " = ", valued(text, text)
     raise InvalidInput(*about, f": is not on the axis, which has {allowed}")
 
 

@@ -13,6 +13,7 @@ from asperity._core import Error
 from asperity.base.diagnostics import Note, fatal_first
 
 Numbers = NDArray[np.float64]
+Where = tuple[Any, ...]  # an index of a box that gives a view of it
 
 
 @dataclass(kw_only=True)
@@ -59,20 +60,27 @@ class Outcome(Lacking):
             if scene not in scenes[-1:]:
                 scenes.append(scene)
 
-    def fail(self, where: Any, error: Error) -> None:
-        """Note why there is nothing at `where`, an index of the box; what failed before stays."""
-        message = str(error)
-        code = code_of(error)
+    def put(self, name: str, where: Where, part: slice, numbers: Numbers) -> None:
+        """Put the numbers of a run of points, counted along what is at `where` in the box."""
+        view = self.array(name)[where]
+        if numbers.size == view.size:
+            view[...] = numbers.reshape(view.shape)
+        else:
+            view.flat[part] = numbers
+
+    def fail(self, error: Error, where: Where, part: slice = slice(None)) -> None:
+        """Note why there is nothing at some of the points; what failed before stays."""
         if self.failure is None:
             self.failure = np.zeros(self.box, np.int64)
-        kind = type(error).__name__
-        before = self.failure[where]
+        view = self.failure[where]
+        before = view.flat[part]
         new = int(np.sum(before == 0))
         if new == 0:
             return
-        self.failure[where] = np.where(before == 0, code, before)
+        code, kind = code_of(error), type(error).__name__
+        view.flat[part] = np.where(before == 0, code, before)
         self.kinds[kind] = self.kinds.get(kind, 0) + new
-        keep_message(self.messages, code, message)
+        keep_message(self.messages, code, str(error))
 
 
 def code_of(error: Error) -> int:

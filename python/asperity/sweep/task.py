@@ -1,7 +1,6 @@
 """What a worker computes: friction in a box of the sweep's points."""
 
 import itertools
-import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -19,7 +18,7 @@ from asperity.scene.scene import build_scene
 from asperity.sweep import chunks
 from asperity.sweep.axes import PRESSURE, VELOCITY, Axis, with_values
 from asperity.sweep.chunks import Place
-from asperity.sweep.outcome import Numbers, Outcome
+from asperity.sweep.outcome import Numbers, Outcome, Where
 from asperity.sweep.parts import ChangedFile, WorkersBuilders
 
 _FAILURES = (InvalidInput, NotConverged, OutOfRange)
@@ -82,17 +81,10 @@ def compute(task: Task) -> Outcome:
     if task.version != __version__:
         raise ChangedFile(f"a worker has asperity {__version__}, the sweep {task.version}")
     began = time.thread_time()
-    box = task.box
-    outcome = Outcome(task.start, box)
-    moved, fixed = task.moved, task.fixed
-    whole = tuple(task.shape[i] for i in fixed)
-    for place in itertools.product(*(range(box[i]) for i in fixed)):
-        at: list[Any] = [slice(None)] * len(box)
-        for i, index in zip(fixed, place, strict=True):
-            at[i] = index
-        first = [task.start[i] + index for i, index in zip(fixed, place, strict=True)]
-        number = int(np.ravel_multi_index(first, whole)) if whole else 0
-        _compute_scene(task, outcome, tuple(at), moved, number)
+    outcome = Outcome(task.start, task.box)
+    fixed = task.fixed
+    for place in itertools.product(*(range(task.box[i]) for i in fixed)):
+        _compute_scene(task, outcome, dict(zip(fixed, place, strict=True)))
     for name in task.variables:
         outcome.values[name] = _sent(outcome.array(name))
     outcome.seconds = time.thread_time() - began
@@ -107,16 +99,18 @@ def _sent(values: Numbers) -> Any:
     return values
 
 
-def _compute_scene(
-    task: Task, outcome: Outcome, at: tuple[Any, ...], moved: list[int], number: int
-) -> None:
+def _compute_scene(task: Task, outcome: Outcome, at: dict[int, int]) -> None:
+    """Compute the scene at these places of the axes that make scenes."""
+    rows = (slice(at[i], at[i] + 1) if i in at else slice(None) for i in range(len(task.box)))
+    where = (*rows, ...)
+    first = [task.start[i] + index for i, index in at.items()]
+    number = int(np.ravel_multi_index(first, [task.shape[i] for i in at])) if at else 0
     values = {
         key: entries[index]
-        for axis, index in zip(task.axes, at, strict=True)
-        if isinstance(index, int)
-        for key, entries in axis.values.items()
+        for i, index in at.items()
+        for key, entries in task.axes[i].values.items()
     }
-    points = [task.axes[i] for i in moved]
+    points = [task.axes[i] for i in task.moved]
     tables = with_values(task.tables, values)
     shape = tuple(axis.size for axis in points)
     try:
@@ -127,48 +121,25 @@ def _compute_scene(
         raise
     except _FAILURES as error:
         outcome.refused += isinstance(error, InvalidInput)
-        outcome.fail(at, error)
+        outcome.fail(error, where)
         return
     flat_p, flat_v = (np.broadcast_to(one, shape).ravel() for one in (pressure, velocity))
     for part, result in _results(scene, flat_p, flat_v):
         if isinstance(result, Error):
-            where = list(at)
-            for i, index in zip(moved, np.unravel_index(part.start, shape), strict=True):
-                where[i] = int(index)
-            outcome.fail(tuple(where), result)
+            outcome.fail(result, where, part)
             continue
         # "small-friction" is on all points of a scene, of which this has some
         outcome.note((one for one in result.notes if one.code != "small-friction"), number)
         for name in task.variables:
             if name not in BAND:
-                _put(outcome, name, at, shape, part, _column(result, name))
+                outcome.put(name, where, part, _column(result, name))
     if task.wants_band:
-        _band(scene, points, pressure, velocity, outcome, at, number)
+        _band(scene, points, pressure, velocity, outcome, where, number)
 
 
 def _column(result: Friction, name: str) -> Any:
     of = result.cold if name == "mu_cold" else result
     return getattr(of, name.removesuffix("_cold"))
-
-
-def _put(
-    outcome: Outcome,
-    name: str,
-    at: tuple[Any, ...],
-    shape: tuple[int, ...],
-    part: slice,
-    numbers: Numbers,
-) -> None:
-    """Put the numbers of a run of a scene's points into their places."""
-    if numbers.size == outcome.points:  # of a box of one scene: without a copy
-        outcome.values[name] = np.array(numbers, float, copy=None).reshape(outcome.box)
-    elif not shape:
-        outcome.array(name)[at] = numbers[0]
-    elif part == slice(0, math.prod(shape)):
-        outcome.array(name)[at] = np.reshape(numbers, shape)
-    else:
-        places = np.unravel_index(np.arange(part.start, part.stop), shape)
-        outcome.array(name)[at][places] = numbers
 
 
 def _along(points: list[Axis], key: str, tables: Mapping[str, Any]) -> Numbers:
@@ -241,14 +212,15 @@ def _band(
     pressure: Numbers,
     velocity: Numbers,
     outcome: Outcome,
-    at: tuple[Any, ...],
+    where: Where,
     number: int,
 ) -> None:
     """Lower and upper mu of a scene's pressures and velocities, all of which are in the box."""
-    mu = outcome.array("mu")[at]
+    mu = outcome.array("mu")[where]
     turned = len(points) == 2 and VELOCITY in points[0].values
     grid = (pressure.size, velocity.size)
-    shares = np.full((2, *grid), np.nan)
+    place = np.arange(mu.size).reshape(grid[::-1]).T if turned else np.arange(mu.size).reshape(grid)
+    shares = np.full((2, mu.size), np.nan)
     pending = [(slice(0, grid[0]), slice(0, grid[1]))]
     while pending:  # what fails is cut, pressures first, until single points are left
         part = pending.pop()
@@ -262,25 +234,18 @@ def _band(
             elif swept.velocity.size > 1:
                 pending += [(rows, half) for half in _halves(columns)]
             else:
-                place = (columns.start, rows.start) if turned else (rows.start, columns.start)
-                outcome.fail(_place_of(at, place, np.shape(mu)), error)
+                k = int(place[rows.start, columns.start])
+                outcome.fail(error, where, slice(k, k + 1))
             continue
-        shares[(slice(None), *part)] = bounds.lower, bounds.upper
+        shares[:, place[part]] = bounds.lower, bounds.upper
         outcome.note(bounds.notes, number)
     for name, share in zip(BAND, shares, strict=True):
-        factor = share.T if turned else share
-        outcome.array(name)[at] = mu * factor.reshape(np.shape(mu))
+        outcome.array(name)[where] = mu * share.reshape(mu.shape)
 
 
 def _halves(part: slice) -> tuple[slice, slice]:
     middle = (part.start + part.stop) // 2
     return slice(middle, part.stop), slice(part.start, middle)
-
-
-def _place_of(at: tuple[Any, ...], place: tuple[int, ...], shape: tuple[int, ...]) -> Any:
-    """The index of a point in the box, of that in a scene's pressures and velocities."""
-    inside = iter(place if len(shape) == 2 else [max(place)])
-    return tuple(one if isinstance(one, int) else next(inside) for one in at)
 
 
 TOKEN = "_sweep/token"  # a text that no other store has, by which a worker knows this one
