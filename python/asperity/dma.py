@@ -12,12 +12,10 @@ from asperity.base.arguments import (
     ABSENT,
     Array,
     Conversion,
-    OptionalVector,
     Vector,
     flag,
     frozen,
     many,
-    notes_of,
     number,
     of_kind,
     quoted,
@@ -103,18 +101,12 @@ class MasterCurveBuild(HasShiftFactors):
     b_T: Vector  # noqa: N815
     points: MasterPoints
     residual: float
-    covariance: OptionalVector = ABSENT
+    covariance: Conversion[ArrayLike | None, NDArray[Any] | None] = ABSENT
     notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
-        self._set(
-            master_curve=of_kind(self.master_curve, "master_curve", MasterCurve),
-            shift_factors=shift_factors_of(self.shift_factors),
-            b_T=vector(self.b_T, "b_T"),
-            points=of_kind(self.points, "points", MasterPoints),
-            residual=number(self.residual, "residual"),
-            notes=notes_of(self.notes, "notes"),
-        )
+        self._take()
+        self._set(shift_factors=shift_factors_of(self.shift_factors))
         n = self.temperature.size
         _require_length(self.b_T, "b_T", n)
         if np.any(self.points.isotherm >= n):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import field
 from os import PathLike
-from typing import Any, Literal, Self
+from typing import Any, Literal, Self, get_args
 from zipfile import BadZipFile
 
 import numpy as np
@@ -14,19 +14,18 @@ from numpy.typing import ArrayLike
 
 from asperity import _core
 from asperity._core import InvalidInput
-from asperity.base.arguments import Array, frozen, number, of_kind, path_of, reading
-from asperity.base.diagnostics import must_be, refusal, unfit
+from asperity.base.arguments import Array, frozen, path_of, reading
+from asperity.base.diagnostics import must_be, refusal
 from asperity.base.parameters import parameter
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value
 from asperity.io.archive import read_arrays
 from asperity.io.files import check_file, write_whole
-from asperity.surface import HeightMap
+from asperity.surface import HeightMap, Periodic
 
 __all__ = ["ScanContact", "SolvedContacts"]
 
 Closing = Literal["blend", "mirror", True]
-_PLACE = {True: 0, "mirror": 1, "blend": 3}  # in the core's enumeration
 # of the core's rows
 COLUMNS = {
     "rubber": ("1", "fingerprint of the rubber"),
@@ -161,13 +160,9 @@ class ScanContact(Value):
     tolerance: float = parameter(default=0.02, usual=(0.001, 0.1))
 
     def __post_init__(self) -> None:
-        named = isinstance(self.periodic, str) and self.periodic in _PLACE
-        if not named and self.periodic is not True:
-            allowed = 'must be "blend", "mirror" or True'
-            raise unfit("periodic", self.periodic, allowed)
-        core = of_kind(self.height_map, "height_map", HeightMap)._core
-        self._set(tolerance=number(self.tolerance, "tolerance"))
-        self._set(_core=_core.ScanContact(core, _PLACE[self.periodic], self.tolerance))
+        self._take()
+        closing = get_args(Periodic).index(self.periodic)
+        self._set(_core=_core.ScanContact(self.height_map._core, closing, self.tolerance))
 
     @property
     def contacts(self) -> SolvedContacts:

@@ -51,10 +51,6 @@ class SelfAffineFit(Table):
     residual: float
     rows: int
 
-    def __post_init__(self) -> None:
-        self._take()
-        of_kind(self.spectrum, "spectrum", SelfAffineSpectrum)
-
     @property
     def rms_height(self) -> float:
         """Root mean square height on [q0, q1] [m]."""

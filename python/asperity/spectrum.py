@@ -25,7 +25,7 @@ from asperity.base.parameters import column, parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, LAST_WAVENUMBER, RMS_HEIGHT
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import CoreValue, around, like, value
-from asperity.spectrum_rows import Flags, Grid, Rows, two_axes
+from asperity.spectrum_rows import Flags, Grid, Rows
 
 
 class _Spectrum(Table):
@@ -271,16 +271,11 @@ class TabulatedSpectrum(Rows, _Spectrum):
     preparation: str | None = None
     _beside: ClassVar[Mapping[str, Any]] = {"preparation": None}
     _facts = (*Rows._facts, "slope_ratio", "q1", "preparation")
-
-    def _take_harmonics(self) -> None:
-        for name in ("cosine", "sine", "harmonic_error"):
-            self._set(**{name: two_axes(getattr(self, name), name, "harmonics")})
-        self._need("sine", "cosine")
-        self._need("cosine", "sine")
+    _grids = (*Rows._grids, "cosine", "sine", "harmonic_error")
+    _pairs = (*Rows._pairs, ("slope_ratio", "kurtosis"), ("cosine", "sine"), ("sine", "cosine"))
 
     def __post_init__(self) -> None:
         self._set(q1=number_or_none(self.q1, "q1"))
-        self._need("kurtosis", "slope_ratio")
         if not isinstance(self.preparation, str | None):
             raise refusal("preparation", self.preparation, "a text, or None")
         super().__post_init__()

@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array, Conversion, frozen, number, real_array, vector
-from asperity.base.diagnostics import Argument, Must, must_be, must_have, valued
+from asperity.base.diagnostics import must_be, must_have
 from asperity.base.table import Table, declared_columns
 from asperity.base.value import like
 
@@ -26,29 +25,26 @@ class Rows(Table):
     flag: Any
     correlation: Any
     _facts: ClassVar[tuple[str, ...]] = ("skewness", "kurtosis", "curvature_kurtosis")
+    _grids: ClassVar[tuple[str, ...]] = ("correlation",)  # columns of two axes
+    _pairs: ClassVar[tuple[tuple[str, str], ...]] = (  # the first is not given without the second
+        ("skewness", "kurtosis"),
+        ("kurtosis", "skewness"),
+        ("curvature_kurtosis", "kurtosis"),
+    )
 
     def __post_init__(self) -> None:
         self._take()
         self._set(flag=_flags(self.flag))
-        self._set(correlation=two_axes(self.correlation, "correlation", "lags"))
-        self._take_harmonics()
+        self._set(**{name: _two_axes(getattr(self, name), name) for name in self._grids})
         for name in ("count", "standard_error", "flag", "correlation"):
             column = getattr(self, name)
             if column is not None and column.size == 0:  # to the core, a column that is not given
                 raise must_have(name, "one for each wavenumber", " has 0 entries")
-        self._need("kurtosis", "skewness", "curvature_kurtosis")
-        self._need("skewness", "kurtosis")
-        of_core = [getattr(self, name) for name in self._of_core()]
-        self._set(_core=getattr(_core, type(self).__name__)(*of_core))
-
-    def _need(self, needed: str, *others: str) -> None:
-        """Refuse one of the others without what it needs."""
-        for name in others:
+        for name, needed in self._pairs:
             if getattr(self, name) is not None and getattr(self, needed) is None:
                 raise must_be(needed, f"given with {name}", " = None")
-
-    def _take_harmonics(self) -> None:
-        """Check and keep harmonics, where the class has them."""
+        of_core = [getattr(self, name) for name in self._of_core()]
+        self._set(_core=getattr(_core, type(self).__name__)(*of_core))
 
     @property
     def reliable(self) -> NDArray[np.bool_]:
@@ -109,12 +105,11 @@ def _flags(flags: Any) -> NDArray[np.uint8] | None:
     return frozen(numbers.astype(np.uint8))
 
 
-def two_axes(entries: Any, name: str, columns: str) -> Array | None:
+def _two_axes(entries: Any, name: str) -> Array | None:
     """Return an array of two axes, rows of the spectrum and columns."""
     if entries is None:
         return None
     array = np.array(real_array(entries, name), order="C")
     if array.ndim != 2:
-        allowed = Must(": must have "), f"two axes, rows and {columns}"
-        raise InvalidInput(Argument(name), " = ", valued(array), *allowed)
+        raise must_have(name, "two axes, one of rows", f" has {array.ndim} dimensions")
     return frozen(array)

@@ -28,6 +28,7 @@ from asperity.base.value import around, value
 
 Detrend = Literal["offset", "plane", "quadratic"]
 DETRENDS: tuple[Detrend, ...] = get_args(Detrend)  # in the order of the core's enumeration
+Periodic = Literal[True, "mirror", "fade", "blend"]  # likewise
 Heights = Conversion[ArrayLike, NDArray[Any]]
 PixelSize = Conversion[float | tuple[float, float], tuple[float, float]]
 

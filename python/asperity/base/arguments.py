@@ -111,10 +111,10 @@ def flag(value: Any, name: str) -> bool:
 def choice(value: Any, name: str, allowed: Any) -> int:
     """Return the place of an option among those of a Literal or a sequence, which is its number in
     the core."""
-    options: Sequence[str | None] = get_args(allowed) or allowed
-    if (isinstance(value, str) or value is None) and value in options:
+    options: Sequence[Any] = get_args(allowed) or allowed
+    if (isinstance(value, str) or value is None or value is True) and value in options:
         return options.index(value)
-    names = ", ".join("None" if option is None else f'"{option}"' for option in options)
+    names = ", ".join(f'"{one}"' if isinstance(one, str) else f"{one}" for one in options)
     shown = quoted(value) if isinstance(value, str) else brief(value)
     raise refusal(name, value, f"one of {names}", text=shown)
 

@@ -46,7 +46,7 @@ KEY_UNITS = {  # by how keys of scenes and columns of tables end, the longest fi
     "s": "s",
 }
 _ENDS = {unit: end for end, unit in KEY_UNITS.items()}
-_CHECKS: dict[Any, Callable[[Any, str], Any]] = {
+CHECKS: dict[Any, Callable[[Any, str], Any]] = {  # by type; `value` adds its classes
     float: number,
     float | None: number_or_none,
     Vector: vector,
@@ -97,13 +97,13 @@ class Parameter:
     @property
     def is_checked(self) -> bool:
         """Whether its type says all that there is to check, but for the range."""
-        return bool(self.choices) or self.type in _CHECKS
+        return bool(self.choices) or self.type in CHECKS
 
     def take(self, value: Any) -> tuple[Any, Any]:
         """Return what an object keeps of an argument, and what the object of the core gets."""
         if self.choices:
             return value, choice(value, self.name, self.choices)
-        kept = _CHECKS[self.type](value, self.name)
+        kept = CHECKS[self.type](value, self.name)
         return kept, kept
 
 

@@ -8,8 +8,9 @@ from typing import Any, ClassVar, Self, TypeVar, dataclass_transform
 import numpy as np
 
 from asperity import _core
+from asperity.base.arguments import of_kind
 from asperity.base.diagnostics import html_items
-from asperity.base.parameters import column, parameter, parameters
+from asperity.base.parameters import CHECKS, column, parameter, parameters
 
 Kind = TypeVar("Kind", bound="Value")
 
@@ -22,6 +23,7 @@ def value(cls: Any) -> Any:
     decorate = dataclass(frozen=True, eq=False, repr=False, kw_only=True, match_args=False)
     made: Any = decorate(cls)
     made.__match_args__ = tuple(f.name for f in fields(made) if f.init)  # type: ignore[misc]
+    CHECKS[made] = lambda one, name: of_kind(one, name, made)
     return made
 
 

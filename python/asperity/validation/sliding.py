@@ -2,22 +2,20 @@
 
 import math
 from collections.abc import Callable
-from typing import Any, Literal, NamedTuple, get_args
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from asperity import _core
-from asperity.base.arguments import Array, frozen, number, of_kind
+from asperity.base.arguments import Array, choice, frozen, number, of_kind
 from asperity.base.diagnostics import Note, fatal_first, refusal
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import around, value
 from asperity.dma import AnyRubber, rubber_of
-from asperity.surface import HeightMap, draw_map
+from asperity.surface import HeightMap, Periodic, draw_map
 
 __all__ = ["SlidingContact", "SlidingStep", "slide"]
 
-Periodic = Literal[True, "mirror", "fade", "blend"]
-_CONTINUATIONS = get_args(Periodic)  # in the order of the core's enumeration
 _MOST_PIXELS = 1000  # along a side of a picture; a larger map is thinned out
 
 
@@ -214,7 +212,7 @@ def slide(
         load,
         speed,
         number(poisson_ratio, "poisson_ratio"),
-        _continuation(periodic),
+        choice(periodic, "periodic", Periodic),
         number(rtol, "rtol"),
         limit,
         number(direction, "direction"),
@@ -246,10 +244,6 @@ def _reporter(progress: Callable[[SlidingStep], object] | None) -> Callable[...,
 
 def continued(height_map: HeightMap, periodic: Periodic) -> HeightMap:
     """Return the map that `slide` solves, its heights about their mean."""
-    return around(HeightMap, _core.continued(height_map._core, _continuation(periodic)))
-
-
-def _continuation(periodic: object) -> int:
-    if periodic is True or (isinstance(periodic, str) and periodic in _CONTINUATIONS):
-        return _CONTINUATIONS.index(periodic)
-    raise refusal("periodic", periodic, 'True, "blend", "mirror" or "fade"')
+    return around(
+        HeightMap, _core.continued(height_map._core, choice(periodic, "periodic", Periodic))
+    )
