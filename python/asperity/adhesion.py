@@ -28,8 +28,6 @@ from asperity.dma import AnyRubber, rubber_of
 from asperity.self_affine_fit import AnySpectrum
 from asperity.sweeps import StrainFactors
 
-__all__ = ["Adhesion", "AdhesionFit", "fit_adhesion"]
-
 
 @value
 class Adhesion(CoreValue):

@@ -13,8 +13,6 @@ from asperity.base.table import Table
 from asperity.base.value import value
 from asperity.correction import Reading
 
-__all__ = ["Separation", "hertz_penetration", "separation"]
-
 # in the order of the core's enumeration
 STATES = np.array(["no contact", "partial", "full"])
 

@@ -29,14 +29,6 @@ from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.spectrum import Spectrum
 from asperity.sweeps import StrainFactors, strain_core
 
-__all__ = [
-    "contact_area",
-    "contact_notes",
-    "correction_factor",
-    "mean_pressure",
-    "pressure_distribution",
-]
-
 # in the order of the core's enumerations
 Form = Literal["exact", "interpolated"]
 Method = Literal["gauss", "qag", "qags", "cquad"]

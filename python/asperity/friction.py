@@ -27,16 +27,15 @@ from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of
 from asperity.heating import Heating
 from asperity.results.directions import along_x_notes, over_directions
-from asperity.results.friction import COLUMNS, HEAT, Friction, small_friction_notes
-from asperity.results.gradients import Gradients
+from asperity.results.friction import COLUMNS, HEAT, small_friction_notes
+from asperity.results.friction import Friction as Friction
+from asperity.results.gradients import Gradients as Gradients
 from asperity.results.gradients import of_core as gradients_of_core
 from asperity.results.heat_notes import law_notes
 from asperity.scan_contact import ScanContact
 from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 from asperity.sweeps import StrainFactors
-
-__all__ = ["Friction", "Gradients", "friction"]
 
 Branch = Literal["cold", "hot"]  # in the order of the core's enumeration
 ROUGHLY = 1e-3  # rtol of the heat of which a note says the size

@@ -23,8 +23,6 @@ from asperity.io.archive import read_arrays
 from asperity.io.files import check_file, write_whole
 from asperity.surface import HeightMap, Periodic
 
-__all__ = ["ScanContact", "SolvedContacts"]
-
 Closing = Literal["blend", "mirror", True]
 # of the core's rows
 COLUMNS = {

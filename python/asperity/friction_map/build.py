@@ -21,8 +21,6 @@ from asperity.self_affine_fit import AnySpectrum, spectrum_of
 from asperity.shift_factors import TemperatureShift, temperature_shift_core
 from asperity.sweeps import StrainFactors
 
-__all__ = ["friction_map"]
-
 
 def friction_map(
     spectrum: AnySpectrum,

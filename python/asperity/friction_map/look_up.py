@@ -20,8 +20,6 @@ from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value
 from asperity.io.files import check_file, write_whole
 
-__all__ = ["FrictionMap", "FrictionSlopes"]
-
 Outside = Literal["error", "nan", "clamp"]
 POLICIES = ("error", "nan", "clamp")
 # of the core's look-ups, and of their status

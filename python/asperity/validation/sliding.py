@@ -14,8 +14,6 @@ from asperity.base.value import around, value
 from asperity.dma import AnyRubber, rubber_of
 from asperity.surface import HeightMap, Periodic, draw_map
 
-__all__ = ["SlidingContact", "SlidingStep", "slide"]
-
 _MOST_PIXELS = 1000  # along a side of a picture; a larger map is thinned out
 
 
