@@ -1,8 +1,7 @@
 """Real contact area and contact pressure at every magnification (Eqs 1-8, Section 6.1)."""
 
 import math
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from typing import Any, Literal
 
 import numpy as np
@@ -121,11 +120,9 @@ def contact_area(
         v q0 or v q1 outside of a measured master curve, wavenumber outside of the band.
     NotConverged
     """
-    model = partial(contact_model, poisson_ratio, correction, form, rtol, method, strain_factors)
-    points = {"pressure": pressure, "velocity": velocity}
-    return _over_wavenumber(
-        _core.contact_area, spectrum, rubber, points, model, direction, wavenumber
-    )
+    how = poisson_ratio, correction, form, rtol, method, strain_factors
+    at = {"pressure": pressure, "velocity": velocity}, direction
+    return _over_wavenumber(_core.contact_area, spectrum, rubber, how, at, wavenumber)
 
 
 def mean_pressure(
@@ -148,11 +145,9 @@ def mean_pressure(
     It is infinite where there is no contact. Arguments, shape and errors are those of
     `contact_area`.
     """
-    model = partial(contact_model, poisson_ratio, correction, form, rtol, method, strain_factors)
-    points = {"pressure": pressure, "velocity": velocity}
-    return _over_wavenumber(
-        _core.mean_pressure, spectrum, rubber, points, model, direction, wavenumber
-    )
+    how = poisson_ratio, correction, form, rtol, method, strain_factors
+    at = {"pressure": pressure, "velocity": velocity}, direction
+    return _over_wavenumber(_core.mean_pressure, spectrum, rubber, how, at, wavenumber)
 
 
 def correction_factor(
@@ -176,11 +171,9 @@ def correction_factor(
     friction PF-CF = S A / A0 with the uncorrected A. It is what the integrand of Eq. 22 is weighted
     with, 1 in full contact. Arguments, shape and errors are those of `contact_area`.
     """
-    model = partial(contact_model, poisson_ratio, correction, form, rtol, method, strain_factors)
-    points = {"pressure": pressure, "velocity": velocity}
-    return _over_wavenumber(
-        _core.correction_factor, spectrum, rubber, points, model, direction, wavenumber
-    )
+    how = poisson_ratio, correction, form, rtol, method, strain_factors
+    at = {"pressure": pressure, "velocity": velocity}, direction
+    return _over_wavenumber(_core.correction_factor, spectrum, rubber, how, at, wavenumber)
 
 
 def contact_notes(
@@ -202,14 +195,13 @@ def contact_notes(
     They are those that `friction` returns as notes, for who asks for the contact area alone.
     Arguments are those of `contact_area`.
     """
-    model = partial(contact_model, poisson_ratio, correction, form, rtol, method, strain_factors)
+    how = poisson_ratio, correction, form, rtol, method, strain_factors
     surface, solid = spectrum_of(spectrum), rubber_of(rubber)
-    points = {"pressure": pressure, "velocity": velocity}
-    notes = [
-        note
-        for angle, _, place in toward_each(direction, points)[1]
-        for note in _core.contact_notes(surface._core, solid._core, model(angle), *place.values())
-    ]
+    _, each = toward_each(direction, {"pressure": pressure, "velocity": velocity})
+    notes: list[Note] = []
+    for angle, _, place in each:
+        model = contact_model(*how, angle)
+        notes += _core.contact_notes(surface._core, solid._core, model, *place.values())
     absurd = implausible_notes(surface, solid, pressure, velocity)
     along_x = along_x_notes(surface, direction)
     return tuple(fatal_first(once((*solid.notes, *absurd, *along_x, *notes))))
@@ -250,51 +242,47 @@ def pressure_distribution(
     float or ndarray
         In the broadcast shape of stress, pressure, velocity and direction.
     """
-    model = partial(contact_model, poisson_ratio, correction, "exact", rtol, method, strain_factors)
-    points = {"stress": stress, "pressure": pressure, "velocity": velocity}
+    how = poisson_ratio, correction, "exact", rtol, method, strain_factors
+    at = {"stress": stress, "pressure": pressure, "velocity": velocity}, direction
     q = number_or_none(wavenumber, "wavenumber")
     q = spectrum_of(spectrum).q1 if q is None else q
-    return _at_points(_core.pressure_distribution, spectrum, rubber, points, model, direction, q)
+    return _at_points(_core.pressure_distribution, spectrum, rubber, how, at, q)
+
+
+Places = tuple[Mapping[str, ArrayLike], ArrayLike]  # points and directions
+How = tuple[Any, Any, Any, Any, Any, Any]  # as contact_model takes it
 
 
 def _over_wavenumber(
-    function: Callable[..., Any],
-    spectrum: AnySpectrum,
-    rubber: AnyRubber,
-    points: Mapping[str, ArrayLike],
-    model: Callable[[float], Any],
-    direction: ArrayLike,
-    wavenumber: ArrayLike | None,
+    function: Any, spectrum: AnySpectrum, rubber: AnyRubber, how: How, at: Places, wavenumber: Any
 ) -> Any:
     """Return a function of points and directions, and of wavenumber as last axis."""
-    q = np.empty(0)
-    more: Shape = ()
-    if wavenumber is not None:
-        q = real_array(wavenumber, "wavenumber")
-        if q.ndim > 1:
-            raise must_have("wavenumber", "0 or 1", f" has {q.ndim} dimensions")
-        if not q.size:
-            raise must_be("wavenumber", "1 or more", " has 0 entries")
-        more = q.shape
-    return _at_points(function, spectrum, rubber, points, model, direction, q, more)
+    if wavenumber is None:
+        return _at_points(function, spectrum, rubber, how, at, np.empty(0))
+    q = real_array(wavenumber, "wavenumber")
+    if q.ndim > 1:
+        raise must_have("wavenumber", "0 or 1", f" has {q.ndim} dimensions")
+    if not q.size:
+        raise must_be("wavenumber", "1 or more", " has 0 entries")
+    return _at_points(function, spectrum, rubber, how, at, q, q.shape)
 
 
 def _at_points(
-    function: Callable[..., Any],
+    function: Any,
     spectrum: AnySpectrum,
     rubber: AnyRubber,
-    points: Mapping[str, ArrayLike],
-    model: Callable[[float], Any],
-    direction: ArrayLike,
+    how: How,
+    at: Places,
     wavenumber: Any,
     more: Shape = (),
 ) -> Any:
     """Return what the core gives, of each direction at a time, in the shape of all and `more`."""
     parts = surface_and_rubber(spectrum, rubber)
+    points, direction = at
     shape, each = toward_each(direction, points)
     result = np.empty((math.prod(shape), *more))
     for angle, where, place in each:
-        rows = function(*parts, model(angle), *place.values(), wavenumber)
+        rows = function(*parts, contact_model(*how, angle), *place.values(), wavenumber)
         result[where] = rows.reshape(-1, *more)
     return shaped(result, (*shape, *more))
 
