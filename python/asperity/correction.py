@@ -60,12 +60,10 @@ class SFactor(CoreValue):
 
     Notes
     -----
-    Measured on 177 elastic boundary-element contacts, random-phase maps with H 0.7 and 0.8, q1/q0
-    from 2 to 128, p / (E* h') from 0.005 to 1; mean error, and the worst. Area without correction:
-    17 %, -37 %. "area": 3.4 %, -11 % at gamma = 0.5, 2.4 %, -16 % at 5/9. Elastic energy, which the
-    integrand of Eq. 22 weighs, without correction: 69 %, +198 %. "friction": 4.0 %, +23 % at
-    gamma = 0.4, 14 %, +52 % at 0.5. Beyond this bandwidth and below this load results carry a note.
-    `asperity validate` makes the table.
+    Mean errors on the elastic contacts of `asperity validate` (all corrections, and the worst, in
+    docs/explanation/corrections.md), without correction: area 17 %, elastic energy, which the
+    integrand of Eq. 22 weighs, 69 %. "area": area 3.4 % at gamma = 0.5, 2.4 % at 5/9. "friction":
+    energy 4.0 % at 0.4, 14 % at 0.5. Beyond their bandwidths and loads results carry a note.
     """
 
     _title = "S-factor"
@@ -90,12 +88,9 @@ class NayakSFactor(CoreValue):
 
     Notes
     -----
-    Against 177 boundary-element contacts, random-phase maps with H 0.7 and 0.8 and q1/q0 from 2 to
-    128 (alpha from 1.75 to 200), p / (E* h') from 0.005 to 1, elastic: the area is off by 1.0 % in
-    the mean and 6.1 % at worst, S inside G with gamma = 5/9 by 2.4 % and 15.6 %. Its four numbers
-    were fitted to the same contacts; each map predicted from the others is off by 1.0 % and 8.9 %,
-    ten maps unknown to the fit, with H 0.3, 0.5 and 0.9, by 1.2 % and 3.7 %. Beyond this bandwidth
-    and below this load results carry a note.
+    On the contacts of SFactor, to which its four numbers were fitted (alpha from 1.75 to 200), the
+    area is off by 1.0 % in the mean and 6.1 % at worst, on ten maps unknown to the fit by 1.2 % and
+    3.7 %. Beyond their bandwidths and loads results carry a note.
     """
 
     _title = "S-factor after Nayak"
@@ -118,12 +113,9 @@ class ImplicitSFactor(CoreValue):
 
     Notes
     -----
-    On the contacts of SFactor, mean error of the area and the worst: 4.4 %, +14 % with gamma =
-    0.45, 6.1 %, +18 % with 0.42, 2.5 %, -12 % with 0.50; elastic energy as without correction. Its
-    source fitted areas whose edges count as whole pixels, which makes them larger: on 17 of them
-    (github.com/xylcsi/PerssonModelFudgeFactor, H = 0.8, q1/q0 = 100, p / E* from 1e-4 to 0.5) 0.45
-    is off by 2.8 % rms and 5 % at worst, no correction by 18 % rms. It does not know the
-    bandwidth: `NayakSFactor` is nearer.
+    On the contacts of SFactor the area is off by 4.4 % in the mean with gamma = 0.45, by 2.5 % with
+    0.50; its source fitted areas whose edges count as whole pixels, which makes them larger
+    (docs/notes/outside.md). It does not know the bandwidth: `NayakSFactor` is nearer.
     """
 
     _title = "implicit S-factor"
@@ -180,11 +172,9 @@ class AffineShift(CoreValue):
 
     Notes
     -----
-    On the contacts of SFactor, mean error and the worst. Area: 14 %, +26 % for p = 1.5; 42 %, +64 %
-    for p = 2. Elastic energy: 43 %, +97 % for 1.5; 44 %, -75 % for 2. The exact area asks for a p
-    that falls from 1.4 at p / (E* h') = 0.005 to 1.05 at 1, the exact energy for one from 2.8 to 1:
-    no single p serves either. Where p takes the area further from the truth than no correction
-    would, results carry a note.
+    On the contacts of SFactor the exact area asks for a p that falls from 1.4 at p / (E* h') =
+    0.005 to 1.05 at 1, the exact energy for one from 2.8 to 1: no single p serves either. Where p
+    takes the area further from the truth than no correction would, results carry a note.
     """
 
     p: float = parameter(kw_only=False, usual=(1, 5), start=1.5)
@@ -216,10 +206,8 @@ class LocalPeaks(Value):
 
     Notes
     -----
-    On the contacts of SFactor, peaks no closer than lambda0 / 2: p_T1 from 1.7 to 2.5; mean error
-    and the worst of the area 44 %, +87 %, of the elastic energy 44 %, -82 %. No closer than
-    lambda0: p_T1 from 2.3 to 4.4; 108 %, +217 % and 65 %, -94 %. Knowing neither load nor rubber it
-    is right at one load alone.
+    On the contacts of SFactor area and elastic energy are off by 44 % in the mean with peaks no
+    closer than lambda0 / 2. Knowing neither load nor rubber it is right at one load alone.
     """
 
     _title = "local peaks of the scan"
@@ -265,10 +253,10 @@ class GreenwoodWilliamson(Value):
     d~ <= z_min is full conformity: p_T = 1. d~ >= z_max is no contact: area and friction are 0 and
     p_T is infinite. Beyond d~ = 3 h_rms the model has left its range: results carry a note.
 
-    On the contacts of SFactor, mean error and the worst. Area: 16 %, +48 % implicit; 14 %, +51 %
-    added. Elastic energy: 32 %, +81 % implicit; 27 %, -81 % added. Its p_T falls with the load as
-    the exact one does, but too fast: the implicit reading is in full conformity, no correction at
-    all, on all but 5 of 104 contacts from p / (E* h') = 0.1 on, the added one turns back above 0.5.
+    On the contacts of SFactor the area is off by 16 % in the mean (implicit) and 14 % (added), the
+    elastic energy by 32 and 27 %. Its p_T falls with the load as the exact one does, but too fast:
+    the implicit reading is in full conformity, no correction at all, on nearly all contacts from
+    p / (E* h') = 0.1 on, the added one turns back above 0.5.
     """
 
     _title = "Greenwood-Williamson on the scan's peaks"
@@ -315,8 +303,8 @@ class PeaksThenGreenwoodWilliamson(Value):
 
     Notes
     -----
-    On the contacts of SFactor (maps of little skewness, not those it is meant for), peaks no closer
-    than lambda0 / 2, mean error and the worst: area 67 %, +182 %; elastic energy 45 %, -82 %.
+    On the contacts of SFactor, maps of little skewness and not those it is meant for, the area is
+    off by 67 % in the mean, the elastic energy by 45 % (peaks no closer than lambda0 / 2).
     """
 
     _title = "local peaks, then Greenwood-Williamson"

@@ -124,16 +124,11 @@ class ScanContact(Value):
 
     Notes
     -----
-    Velocities v a_T lie on a lattice of about a decade, from two decades below the rubber's longest
-    relaxation time to two above its shortest, or over the measured frequencies; where the contact
-    in the middle of a step misses the cubic through its neighbours by more than twice `tolerance`
-    the step is halved. One lattice serves all temperatures. Up to 8 pressures are solved as they
-    are, more on a lattice of a quarter of a decade. What is solved is kept in the object, which
-    threads may share.
-
-    Where the scan needs a grid of more than 1024 x 1024 points, its long waves are solved on the
-    whole of it, on 512 x 512 points, and what its short waves change on four pieces of as many
-    points. Where the spectrum goes on beyond the scan the theory goes on.
+    Velocities v a_T lie on a lattice that is halved where the error asks; one lattice serves all
+    temperatures. Up to 8 pressures are solved as they are, more on a lattice of a quarter of a
+    decade (docs/howto/scan_contact.md). What is solved is kept in the object, which threads may
+    share. Of a scan that needs more than 1024 x 1024 points short waves are solved on four pieces
+    alone. Where the spectrum goes on beyond the scan the theory goes on.
 
     `model_error` is of interpolation, pixels, one scan (half of the scatter of its quarters),
     contacts that did not converge and short waves solved on pieces alone, together.

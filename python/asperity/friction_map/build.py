@@ -47,11 +47,9 @@ def friction_map(
 ) -> FrictionMap:
     """Build a map of the friction coefficient for simulators to `rtol`, and certify it.
 
-    Cells are halved until hysteresis and contact area keep rtol / 2 on lattices of 5 x 5 and on
-    random points that nothing was made from, 12 a cell. There they are held against polynomials
-    through 12 x 12 points of the solver each, halved until they keep rtol / 20 on random points of
-    their own. Then the finished map is checked against the solver itself on more random points,
-    where a mistake of the polynomials would show. Where a Greenwood-Williamson correction changes
+    Cells are halved until hysteresis and contact area keep rtol / 2 on lattices and on random
+    points that nothing was made from; then the finished map is checked against the solver itself on
+    more of them (docs/explanation/friction_map.md). Where a Greenwood-Williamson correction changes
     its state (full contact, beyond its range) the map is split along the boundary, where mu has a
     kink.
 

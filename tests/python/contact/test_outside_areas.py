@@ -42,7 +42,7 @@ def rms(error):
 
 
 @pytest.mark.parametrize(
-    ("correction", "stated"),  # on contacts without pixels, by the docstrings and docs/sliding.md
+    ("correction", "stated"),  # on contacts without pixels, by the pages on corrections
     [
         (asperity.ImplicitSFactor(), (-0.14, 0.14)),
         (asperity.SFactor(gamma=0.5, applies_to="area"), (-0.11, 0.11)),
