@@ -92,16 +92,7 @@ def block_means(piece: Piece, block: Shape, corner: Shape) -> tuple[NDArray[Any]
         return (sums / numbers).astype(heights.dtype), missing
 
 
-@dataclass(frozen=True)
-class Rows:
-    """Some rows of a spectrum."""
-
-    wavenumber: Array
-    density: Array
-    count: Array
-    error: Array
-    flag: NDArray[np.uint8]
-    correlation: Array  # (rows, lags)
+Columns = dict[str, Any]  # arguments of TabulatedSpectrum
 
 
 def few_modes(density: Array, error: Array) -> NDArray[np.uint8]:
@@ -109,7 +100,9 @@ def few_modes(density: Array, error: Array) -> NDArray[np.uint8]:
     return np.where(error > density / 4, _FEW_MODES, 0).astype(np.uint8)
 
 
-def without_blocks(rows: Rows, coarse: Coarse, pixel_size: tuple[float, float], fine: Rows) -> Rows:
+def without_blocks(
+    rows: Columns, coarse: Coarse, pixel_size: tuple[float, float], fine: Columns
+) -> Columns:
     """Return rows of the coarse map as those of the map: what is folded back is taken off, and
     what means over blocks take from a wave is given back.
 
@@ -118,7 +111,7 @@ def without_blocks(rows: Rows, coarse: Coarse, pixel_size: tuple[float, float], 
     as those of few modes. No density is below 0: where less than nothing would be left, it is 0,
     and flagged, as its error is positive.
     """
-    q = rows.wavenumber
+    q = rows["wavenumber"]
     radii = np.linspace(q[0], q[-1], _RADII)
     angle = (np.arange(_DIRECTIONS) + 0.5) * (math.pi / 2 / _DIRECTIONS)
     kept, folded, unsure = np.empty(_RADII), np.empty(_RADII), np.empty(_RADII)
@@ -129,14 +122,14 @@ def without_blocks(rows: Rows, coarse: Coarse, pixel_size: tuple[float, float], 
         length = np.hypot(down[0][:, None], along[0][None, :])
         share = down[1][:, None] * along[1][None, :]
         share[0, 0] = 0  # k = 0 in either direction
-        for sums, of_tiles in ((folded, fine.density), (unsure, fine.error)):
-            known = np.interp(length, fine.wavenumber, of_tiles)
+        for sums, name in ((folded, "density"), (unsure, "standard_error")):
+            known = np.interp(length, fine["wavenumber"], fine[name])
             sums[i] = np.mean(np.sum(share * known, axis=(0, 1)))
     through = np.interp(q, radii, kept)
-    density = np.maximum(rows.density - np.interp(q, radii, folded), 0) / through
-    error = np.hypot(rows.error, np.interp(q, radii, unsure)) / through
-    flag = rows.flag | few_modes(density, error)
-    return Rows(q, density, rows.count, error, flag, rows.correlation)
+    density = np.maximum(rows["density"] - np.interp(q, radii, folded), 0) / through
+    error = np.hypot(rows["standard_error"], np.interp(q, radii, unsure)) / through
+    flag = rows["flag"] | few_modes(density, error)
+    return {**rows, "density": density, "standard_error": error, "flag": flag}
 
 
 def _let_through(q: Array, block: int, pixel: float) -> tuple[Array, Array]:

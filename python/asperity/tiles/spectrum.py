@@ -11,7 +11,7 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import number
 from asperity.base.diagnostics import Argument, must_be, refusal
 from asperity.spectrum import TabulatedSpectrum
-from asperity.tiles.coarse import Coarse, Rows, block_of, coarsen, few_modes, without_blocks
+from asperity.tiles.coarse import Coarse, Columns, block_of, coarsen, few_modes, without_blocks
 from asperity.tiles.grid import Grid
 from asperity.tiles.share import Workers
 from asperity.tiles.source import Piece, Source
@@ -21,8 +21,8 @@ _PERIODS = (32.0, 20.0, 0.0, 24.0)  # of a wave on a tile where its rows take ov
 # bell, Hann, -, Blackman. Twice those from which a row is reliable
 _NEAR_NYQUIST = 2
 _ANY_SHARE = 0.999  # the whole has been judged by its points
-
-Columns = tuple[Any, ...]  # in the order of TabulatedSpectrum's arguments
+_COLUMNS = ("wavenumber", "density", "count", "standard_error", "flag", "correlation")
+_OF_HEIGHTS = ("skewness", "kurtosis", "curvature_kurtosis", "slope_ratio")
 
 
 def tiled_spectrum(
@@ -65,7 +65,7 @@ def tile_columns(
     if missing:
         tile = tile.fill_dropouts(most)
     spectrum = _core.power_spectrum(tile, window, detrend, 1, 0)
-    return tuple(getattr(spectrum, name) for name in TabulatedSpectrum._of_core())
+    return {name: getattr(spectrum, name) for name in TabulatedSpectrum._of_core()}
 
 
 def _single(
@@ -77,8 +77,7 @@ def _single(
     if columns is None:
         _check_dropouts(float(np.mean(np.isnan(piece.read()))), how[-1])
         raise InvalidInput(Argument("heights"), ": every point is a drop-out (NaN)")
-    arguments: dict[str, Any] = dict(zip(TabulatedSpectrum._of_core(), columns, strict=True))
-    return TabulatedSpectrum(**arguments)
+    return TabulatedSpectrum(**columns)
 
 
 def _check_dropouts(share: float, most: float) -> None:
@@ -89,7 +88,7 @@ def _check_dropouts(share: float, most: float) -> None:
         raise must_be("heights", allowed, f" has {100 * share:.4g} % drop-outs")
 
 
-def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Workers) -> Rows:
+def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Workers) -> Columns:
     """The mean over the tiles that are whole enough. Their errors are those of independent tiles
     times what the overlap makes of them."""
     window, _, most = how
@@ -101,7 +100,8 @@ def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Worker
         used.append(columns is not None)
         if columns is not None:
             same = same or columns
-            density, square = density + columns[1], square + columns[3] ** 2
+            density = density + columns["density"]
+            square = square + columns["standard_error"] ** 2
     if same is None:
         problem = f"have more than {100 * most:.4g} % drop-outs each, max_dropouts = {most:.4g}"
         raise InvalidInput(Argument("heights"), f": all {len(used)} tiles {problem}")
@@ -109,14 +109,14 @@ def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Worker
     alone = _core.tile_covariances(window, grid.tile, source.pixel_size, (0, 0))
     together = grid.covariances(window, source.pixel_size, np.array(used))
     mean, error = density / tiles, np.sqrt(square / tiles * (together[0] / alone[0]))
-    return Rows(
-        wavenumber=same[0],
-        density=mean,
-        count=same[2] * (math.prod(source.shape) / math.prod(grid.tile)),
-        error=error,
-        flag=same[4] & np.uint8(_NEAR_NYQUIST) | few_modes(mean, error),
-        correlation=np.tile(together[1:] / together[0], (mean.size, 1)),
-    )
+    return {
+        "wavenumber": same["wavenumber"],
+        "density": mean,
+        "count": same["count"] * (math.prod(source.shape) / math.prod(grid.tile)),
+        "standard_error": error,
+        "flag": same["flag"] & np.uint8(_NEAR_NYQUIST) | few_modes(mean, error),
+        "correlation": np.tile(together[1:] / together[0], (mean.size, 1)),
+    }
 
 
 def _of_coarse(coarse: Coarse, how: tuple[Any, ...]) -> Any:
@@ -129,18 +129,12 @@ def _of_coarse(coarse: Coarse, how: tuple[Any, ...]) -> Any:
 
 
 def _low_rows(
-    spectrum: Any, coarse: Coarse, source: Source, grid: Grid, fine: Rows, window: int
-) -> Rows:
+    spectrum: Any, coarse: Coarse, source: Source, grid: Grid, fine: Columns, window: int
+) -> Columns:
     """The rows of the coarse map that tiles are too small for."""
     below = spectrum.wavenumber < _edge(grid, source.pixel_size, window)[1]
-    rows = Rows(
-        spectrum.wavenumber[below],
-        spectrum.density[below],
-        spectrum.count[below],
-        spectrum.standard_error[below],
-        spectrum.flag[below] & ~np.uint8(_NEAR_NYQUIST),
-        spectrum.correlation[below],
-    )
+    rows = {name: getattr(spectrum, name)[below] for name in _COLUMNS}
+    rows["flag"] = rows["flag"] & ~np.uint8(_NEAR_NYQUIST)
     return without_blocks(rows, coarse, source.pixel_size, fine)
 
 
@@ -153,27 +147,19 @@ def _edge(grid: Grid, pixel_size: tuple[float, float], window: int) -> tuple[int
 
 
 def _merged(
-    low: Rows, fine: Rows, skipped: int, coarse: Any, pixel_size: tuple[float, float]
+    low: Columns, fine: Columns, skipped: int, coarse: Any, pixel_size: tuple[float, float]
 ) -> TabulatedSpectrum:
     """The rows of the coarse map, whose heights are the map's but for short waves, then those of
     the tiles."""
-    lags = max(low.correlation.shape[1], fine.correlation.shape[1])
-    above = slice(skipped, None)
-    correlation = np.zeros((low.density.size + fine.density[above].size, lags))
-    for lag in range(low.correlation.shape[1]):  # none of a low row with those of the tiles
-        last = max(0, low.density.size - lag - 1)
-        correlation[:last, lag] = low.correlation[:last, lag]
-    correlation[low.density.size :, : fine.correlation.shape[1]] = fine.correlation[above]
-    return TabulatedSpectrum(
-        wavenumber=np.concatenate([low.wavenumber, fine.wavenumber[above]]),
-        density=np.concatenate([low.density, fine.density[above]]),
-        count=np.concatenate([low.count, fine.count[above]]),
-        standard_error=np.concatenate([low.error, fine.error[above]]),
-        flag=np.concatenate([low.flag, fine.flag[above]]),
-        correlation=correlation,
-        skewness=coarse.skewness,
-        kurtosis=coarse.kurtosis,
-        curvature_kurtosis=coarse.curvature_kurtosis,
-        slope_ratio=coarse.slope_ratio,
-        q1=math.pi / max(pixel_size),
-    )
+    fine = {name: column[skipped:] for name, column in fine.items()}
+    correlations = low.pop("correlation"), fine.pop("correlation")
+    count, lags = low["density"].size, max(one.shape[1] for one in correlations)
+    correlation = np.zeros((count + fine["density"].size, lags))
+    for lag, column in enumerate(correlations[0].T):  # none of a low row with those of the tiles
+        last = max(0, count - lag - 1)
+        correlation[:last, lag] = column[:last]
+    correlation[count:, : correlations[1].shape[1]] = correlations[1]
+    columns: Columns = {name: np.concatenate([low[name], fine[name]]) for name in low}
+    columns |= {name: getattr(coarse, name) for name in _OF_HEIGHTS}
+    q1 = math.pi / max(pixel_size)
+    return TabulatedSpectrum(**columns, correlation=correlation, q1=q1)

@@ -3,12 +3,13 @@
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from itertools import pairwise
 from multiprocessing import get_context
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from asperity import HeightMap, InvalidInput, _core, fit_self_affine, power_spectrum
-from asperity.tiles.coarse import Coarse, Rows, without_blocks
+from asperity.tiles.coarse import Coarse, without_blocks
 from helpers.cases import long
 from helpers.known_surfaces import law, ring_mean, surface, tilted, with_holes
 from helpers.plain_spectrum import profile
@@ -146,28 +147,25 @@ def test_rows_of_which_the_folded_roughness_leaves_little_are_flagged():
 def test_the_error_of_what_is_taken_off_is_in_that_of_the_row():
     q = np.linspace(1, 60, 40) * 2 * np.pi / (512 * PIXEL)
     other = np.linspace(21, 300, 200) * 2 * np.pi / (512 * PIXEL)
-    ones, none = np.ones_like(q), np.zeros((q.size, 0))
     coarse = Coarse(np.zeros((256, 256)), (2, 2), (2 * PIXEL, 2 * PIXEL), 0.0)
-    rows = Rows(q, 5 * ones, ones, 0.5 * ones, np.zeros(q.size, np.uint8), none)
+    ones = np.ones_like(q)
+    rows = {"wavenumber": q, "density": 5 * ones, "standard_error": 0.5 * ones}
+    rows["flag"] = np.zeros(q.size, np.uint8)
 
     def taken(density, error):
-        fine = Rows(
-            other,
-            np.full_like(other, density),
-            other,
-            np.full_like(other, error),
-            np.zeros(other.size, np.uint8),
-            np.zeros((other.size, 0)),
-        )
-        return without_blocks(rows, coarse, (PIXEL, PIXEL), fine)
+        fine = {"wavenumber": other, "density": np.full_like(other, density)}
+        fine["standard_error"] = np.full_like(other, error)
+        return SimpleNamespace(**without_blocks(rows, coarse, (PIXEL, PIXEL), fine))
 
     sure, unsure, plain = taken(1.0, 0.0), taken(1.0, 0.1), taken(0.0, 0.0)
     folded = plain.density - sure.density  # of a density of 1
     assert folded[-1] > 0.05
-    assert sure.error == pytest.approx(plain.error, rel=1e-12)
-    assert unsure.error == pytest.approx(np.hypot(sure.error, 0.1 * folded), rel=1e-12)
+    assert sure.standard_error == pytest.approx(plain.standard_error, rel=1e-12)
+    assert unsure.standard_error == pytest.approx(
+        np.hypot(sure.standard_error, 0.1 * folded), rel=1e-12
+    )
     much = taken(100.0, 0.0)
-    flagged = much.error > much.density / 4
+    flagged = much.standard_error > much.density / 4
     assert 0 < np.count_nonzero(flagged) < q.size
     assert (much.flag == 4 * flagged).all()
     assert (sure.flag == 0).all()
