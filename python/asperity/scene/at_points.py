@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from statistics import NormalDist
 from typing import Any
@@ -155,29 +154,14 @@ class Slopes:
 _NORMAL = NormalDist().inv_cdf(0.975)
 
 
-@dataclass(frozen=True)
-class Prediction:
-    """mu at the points [-], its relative standard errors, NaN where one is unknown, and the 95 %
-    interval on measured points by those that are known and by their scatter, if that is."""
-
-    tables: Mapping[str, Any]
-    mu: Array
-    numbers: Array
-    inputs: Array
-    model: Array
-    lower: Array
-    upper: Array
-    notes: list[Note]
-
-
 def predicted(
     model: AtPoints,
     tables: Mapping[str, Any],
     scatter: float | None,
     of_fitted: Array | None = None,
-) -> Prediction:
-    """Return the prediction; `of_fitted` is the variance of ln mu by what was fitted, which takes
-    the place of that of the inputs."""
+) -> dict[str, Any]:
+    """Return mu at the points, its errors and interval by the names that SceneFit has for them;
+    `of_fitted` is the variance of ln mu by what was fitted, in the place of that of the inputs."""
     size = model.measured.mu.size
     mu, numbers, inputs, theory = (np.full(size, np.nan) for _ in range(4))
     if of_fitted is not None:
@@ -196,33 +180,33 @@ def predicted(
             notes += scene.notes_with(band.notes)
     known = np.nan_to_num(np.array([numbers, inputs, theory]))
     away = np.exp(_NORMAL * np.sqrt((known**2).sum(axis=0) + (scatter or 0.0) ** 2))
-    return Prediction(tables, mu, numbers, inputs, theory, mu / away, mu * away, fatal_first(notes))
+    errors = {"numbers_error": numbers, "inputs_error": inputs, "model_error": theory}
+    band_of_mu = {"band_lower": mu / away, "band_upper": mu * away}
+    return {"tables": tables, "mu": mu, **errors, **band_of_mu, "notes": fatal_first(notes)}
 
 
 def sentence_on(
-    result: Prediction,
+    result: Mapping[str, Any],
     inside: int,
     scatter: float | None,
     fitted: int,
-    rms_left_out: float,
-    rms_same_mu: float,
+    rms: Mapping[str, float],
 ) -> str:
     """Return what may be published of a comparison, or of a fit of so many numbers."""
-    size = result.mu.size
-    parts = ("numbers", result.numbers), ("inputs", result.inputs), ("model", result.model)
-    shown = [f"{name} {_rms(error)}" for name, error in parts]
-    if fitted:
-        shown[1] = shown[1].replace("inputs", "fitted numbers")
+    size = result["mu"].size
+    of_inputs = "fitted numbers" if fitted else "inputs"
+    parts = {"numbers": "numbers_error", of_inputs: "inputs_error", "model": "model_error"}
+    shown = ", ".join(f"{name} {_rms(result[error])}" for name, error in parts.items())
     which = "left out of the fit one at a time, " if fitted else ""
     numbers = "one number of it was" if fitted == 1 else f"{fitted} numbers of it were"
     how = f"{numbers if fitted else 'nothing was'} fitted to them"
-    alone = "" if "adhesion" in result.tables else ", hysteresis alone without an [adhesion],"
+    alone = "" if "adhesion" in result["tables"] else ", hysteresis alone without an [adhesion],"
     of_points = "without" if scatter is None else f"with {_share(scatter)} for"
     return (
         f"Of {size} measured friction coefficients, {which}the scene{alone} predicts each to "
-        f"{_share(rms_left_out)} rms; the same mu everywhere would be off by "
-        f"{_share(rms_same_mu)}; {how}. {inside} of {size} lie within the 95 % interval of its "
-        f"stated errors ({', '.join(shown)}), {of_points} their own scatter."
+        f"{_share(rms['rms_left_out'])} rms; the same mu everywhere would be off by "
+        f"{_share(rms['rms_same_mu'])}; {how}. {inside} of {size} lie within the 95 % interval of "
+        f"its stated errors ({shown}), {of_points} their own scatter."
     )
 
 

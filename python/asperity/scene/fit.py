@@ -13,7 +13,7 @@ from asperity.base.arguments import Array, frozen, number, path_of
 from asperity.base.diagnostics import Argument, Note, fatal_first, must_have, refusal
 from asperity.base.table import imported
 from asperity.io.read_friction import MeasuredFriction, measured_friction
-from asperity.scene.at_points import AtPoints, Prediction, Slopes, predicted, sentence_on
+from asperity.scene.at_points import AtPoints, Slopes, predicted, sentence_on
 from asperity.scene.model import Scene
 from asperity.scene.scene import check_tables, read_tables
 from asperity.scene.scene_fit import SceneFit
@@ -302,7 +302,7 @@ def _numbers(
 
 def _result(
     model: AtPoints,
-    prediction: Prediction,
+    prediction: dict[str, Any],
     unknowns: Sequence[Unknown],
     covariance: Array,
     numbers: dict[str, Any],
@@ -310,17 +310,18 @@ def _result(
     left_out: Array | None,
 ) -> SceneFit:
     points, log_measured = model.measured, np.log(model.measured.mu)
-    off = log_measured - np.log(prediction.mu)
+    off = log_measured - np.log(prediction["mu"])
     n = off.size
-    others = (log_measured - log_measured.mean()) * (n / max(n - 1, 1))
-    of_left_out = off if left_out is None else log_measured - np.log(left_out)
-    rms, rms_left_out, rms_same_mu = (
-        float(np.sqrt(np.mean(x**2))) for x in (off, of_left_out, others)
-    )
-    inside = (points.mu >= prediction.lower) & (points.mu <= prediction.upper)
-    notes = [*prediction.notes]
-    if rms_left_out >= rms_same_mu:
-        notes.append(_no_better(rms_left_out, rms_same_mu))
+    distances = {
+        "rms": off,
+        "rms_left_out": off if left_out is None else log_measured - np.log(left_out),
+        "rms_same_mu": (log_measured - log_measured.mean()) * (n / max(n - 1, 1)),
+    }
+    rms: dict[str, Any] = {name: float(np.sqrt(np.mean(x**2))) for name, x in distances.items()}
+    inside = (points.mu >= prediction["band_lower"]) & (points.mu <= prediction["band_upper"])
+    notes = prediction.pop("notes")
+    if rms["rms_left_out"] >= rms["rms_same_mu"]:
+        notes.append(_no_better(rms["rms_left_out"], rms["rms_same_mu"]))
     for k, one in enumerate(unknowns):
         prior = one.off_prior(one.inside(numbers["value"][one.key]))[1]
         if prior and np.sqrt(covariance[k, k]) * prior > 0.9:
@@ -334,22 +335,12 @@ def _result(
         velocity=frozen(points.velocity),
         temperature=None if points.temperature is None else frozen(points.temperature),
         measured=frozen(points.mu),
-        mu=prediction.mu,
         left_out=left_out,
-        numbers_error=prediction.numbers,
-        inputs_error=prediction.inputs,
-        model_error=prediction.model,
-        band_lower=prediction.lower,
-        band_upper=prediction.upper,
+        **prediction,
         scatter=None if scatter is None else float(scatter),
-        rms=rms,
-        rms_left_out=rms_left_out,
-        rms_same_mu=rms_same_mu,
+        **rms,
         inside=float(inside.mean()),
-        sentence=sentence_on(
-            prediction, int(inside.sum()), scatter, len(unknowns), rms_left_out, rms_same_mu
-        ),
-        tables=prediction.tables,
+        sentence=sentence_on(prediction, int(inside.sum()), scatter, len(unknowns), rms),
         notes=tuple(fatal_first(notes)),
     )
 
