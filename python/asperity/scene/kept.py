@@ -8,11 +8,12 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
+from asperity.base.diagnostics import Note
 from asperity.io import plausible
 from asperity.scene.parts import build_correction
 from asperity.scene.rubber import BuiltRubber, build_measured, build_rubber
 from asperity.scene.scene import Builders
-from asperity.scene.section import Section
+from asperity.scene.section import Made, Section
 from asperity.scene.surface import READ, Surface, build_surface, read_scans
 
 
@@ -24,7 +25,7 @@ class Kept:
         self._lock = Lock()
         self._made: OrderedDict[Any, Future[Any]] = OrderedDict()
 
-    def get(self, key: Any, build: Callable[[], Any]) -> Any:
+    def get(self, key: Any, build: Callable[[], Made]) -> Made:
         """Return what `build` made for the key, and note again what was noted then."""
         with self._lock:
             mine = key not in self._made
@@ -41,9 +42,9 @@ class Kept:
                 with self._lock:
                     self._made.pop(key, None)
                 future.set_exception(error)
-        made, notes = future.result()
-        plausible.tell_again(notes)
-        return made
+        result: tuple[Made, list[Note]] = future.result()
+        plausible.tell_again(result[1])
+        return result[0]
 
 
 class KeptBuilders(Builders):
@@ -55,8 +56,7 @@ class KeptBuilders(Builders):
 
     def _surface(self, path: Path, table: object) -> Surface:
         key = "surface", as_key(table)
-        made: Surface = self._kept.get(key, lambda: build_surface(path, table, self._read))
-        return made
+        return self._kept.get(key, lambda: build_surface(path, table, self._read))
 
     def _read(self, section: Section, every: bool) -> Any:
         which = {key: section.values[key] for key in READ if key in section.values}
@@ -65,10 +65,7 @@ class KeptBuilders(Builders):
 
     def _rubber(self, path: Path, table: object, at: float | None) -> BuiltRubber:
         key = "rubber", as_key(table), at
-        made: BuiltRubber = self._kept.get(
-            key, lambda: build_rubber(path, table, at, self._measured)
-        )
-        return made
+        return self._kept.get(key, lambda: build_rubber(path, table, at, self._measured))
 
     def _measured(self, section: Section) -> Any:
         key = "isotherms", as_key(section.values)

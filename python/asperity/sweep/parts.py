@@ -12,6 +12,7 @@ from asperity.scene.keys import files_of
 from asperity.scene.parts import build_correction
 from asperity.scene.rubber import BuiltRubber, build_rubber
 from asperity.scene.scene import Builders
+from asperity.scene.section import Made
 from asperity.scene.surface import Surface, build_surface
 
 _SCANS = Kept(2)  # with their heights, for corrections that ask for peaks
@@ -32,22 +33,17 @@ class WorkersBuilders(Builders):
     def _surface(self, path: Path, table: object) -> Surface:
         key = self._key(path, "surface", table)
 
-        def whole() -> Any:
+        def whole() -> Surface:
             return _SCANS.get(key, lambda: self._unchanged("surface", table, build_surface, path))
 
         self._scan = key, whole
-        surface: Surface = _SURFACES.get(key, lambda: replace(whole(), scan=None))
-        return surface
+        return _SURFACES.get(key, lambda: replace(whole(), scan=None))
 
     def _rubber(self, path: Path, table: object, temperature: float | None) -> BuiltRubber:
-        def build(path: Path, table: object) -> BuiltRubber:
-            return build_rubber(path, table, temperature)
-
         key = self._key(path, "rubber", table, temperature)
-        rubber: BuiltRubber = _RUBBERS.get(
-            key, lambda: self._unchanged("rubber", table, build, path)
+        return _RUBBERS.get(
+            key, lambda: self._unchanged("rubber", table, build_rubber, path, temperature)
         )
-        return rubber
 
     def _correction(self, path: Path, table: object, *_: Any) -> Any:
         assert self._scan is not None
@@ -64,13 +60,13 @@ class WorkersBuilders(Builders):
         return f"{path}", as_key(table), digests, more
 
     def _unchanged(
-        self, name: str, table: object, build: Callable[[Path, object], Any], path: Path
-    ) -> Any:
+        self, name: str, table: object, build: Callable[..., Made], path: Path, *more: Any
+    ) -> Made:
         """What is built of files that are still what they were."""
         for file in files_of({name: table}):
             if file in self._digests and digest(file) != self._digests[file]:
                 raise ChangedFile(f"{file}: was changed while the sweep ran")
-        return build(path, table)
+        return build(path, table, *more)
 
 
 class ChangedFile(InvalidInput):

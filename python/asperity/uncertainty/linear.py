@@ -41,11 +41,6 @@ class _Input:
     slopes: Callable[[Friction], Array]  # (points, coordinates)
     moved: Callable[[Array], Any]
 
-    def parts(self, result: Friction) -> Array:
-        """Return what each mode does to mu, of shape (points, modes)."""
-        parts: Array = self.slopes(result) @ self.modes.T
-        return parts
-
 
 def linear_band(
     inputs: Inputs, level: float, *, refitted: bool
@@ -103,7 +98,7 @@ def _deviation(inputs: Inputs) -> tuple[Array, Array]:
     if isinstance(adhesion, AdhesionFit):
         inputs_of["adhesion"] = _adhesion(adhesion)
     mu = np.where(result.mu > 0, result.mu, 1.0)[:, None]
-    parts = {name: one.parts(result) / mu for name, one in inputs_of.items()}
+    parts = {name: one.slopes(result) @ one.modes.T / mu for name, one in inputs_of.items()}
     deviation = np.sqrt(sum((of**2).sum(axis=1) for of in parts.values()))
     rng = np.random.default_rng(0)
     signs = {name: rng.choice([-1.0, 1.0], len(one.modes)) for name, one in inputs_of.items()}
