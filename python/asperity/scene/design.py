@@ -130,17 +130,10 @@ def by_decade(rows: Array, density: Array) -> tuple[list[float], Array]:
     low, high = np.floor(np.log10(rows[0])), np.ceil(np.log10(rows[-1]))
     powers = np.arange(low, max(high, low + 1) + 1)
     edges = powers * np.log(10)
-    steps = np.diff(x) * (density[1:] + density[:-1]) / 2
-    up_to_rows = np.concatenate([[0.0], np.cumsum(steps)])
-
-    def up_to(at: float) -> float:
-        at = float(np.clip(at, x[0], x[-1]))
-        k = min(int(np.searchsorted(x, at, side="right")) - 1, x.size - 2)
-        inside = (at - x[k]) / (x[k + 1] - x[k])
-        here = density[k] + inside / 2 * (density[k + 1] - density[k])
-        return float(up_to_rows[k] + (at - x[k]) * here)
-
-    sums = np.diff([up_to(edge) for edge in edges])
+    at = np.union1d(x, np.clip(edges, x[0], x[-1]))
+    here = np.interp(at, x, density)
+    up_to = np.append(0.0, np.cumsum(np.diff(at) * (here[1:] + here[:-1]) / 2))
+    sums = np.diff(np.interp(edges, at, up_to))
     of_note = np.flatnonzero(np.abs(sums) > 1e-3 * np.abs(sums).sum())
     first, last = (of_note[0], of_note[-1] + 1) if of_note.size else (0, sums.size)
     return (10.0 ** powers[first : last + 1]).tolist(), sums[first:last]

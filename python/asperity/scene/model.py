@@ -189,7 +189,7 @@ class Scene:
         else:
             parts = self._at_points(self._friction, progress)
         shape = (self.pressure.size, self.velocity.size)
-        share = np.concatenate([part.extrapolated_share for part in parts])
+        whole = joined(parts, shape)
         remarks = [note for part in parts for note in part.notes if note.code not in self._unsaid]
         p, v = self.points
         if self._law:
@@ -199,14 +199,14 @@ class Scene:
                 self.adhesion is not None,
                 lambda k, heating: self.roughly(pressure=p[k], velocity=v[k], heating=heating),
             )
-        remarks += extrapolation_notes(v, share)
+        remarks += extrapolation_notes(v, whole.extrapolated_share.ravel())
         held = [note for note in remarks if note.code == _OF_STRAIN]
         most = max(held, key=attrgetter("value"), default=None)  # of all points
         remarks = [note for note in remarks if note.code != _OF_STRAIN or note is most]
-        remarks += small_friction_notes(np.concatenate([np.ravel(part.mu) for part in parts]))
+        remarks += small_friction_notes(whole.mu)
         slopes = reshaped(known(parts[0].gradients), shape) if gradients else None
-        whole = {**vars(joined(parts, shape)), "gradients": slopes}
-        return SceneFriction._made(whole, notes=tuple(self.notes_with(remarks)))
+        notes = tuple(self.notes_with(remarks))
+        return SceneFriction._made(vars(whole), gradients=slopes, notes=notes)
 
     @property
     def _friction(self) -> Callable[..., Friction]:
