@@ -254,17 +254,20 @@ def _parameters(inputs: Inputs) -> list[_Row]:
     ]
 
 
+def _listed(what: str, values: Array, symbol: str, unit: str, source: str) -> list[_Row]:
+    """A row a velocity of Table 1's."""
+    at = zip(_LISTED, _at(values, _LISTED).tolist(), strict=True)
+    return [(what.format(f"{v:g} m/s"), symbol, value, unit, source) for v, value in at]
+
+
 def _frictions(curves: Mapping[str, Mapping[str, Friction]]) -> list[_Row]:
     rows: list[_Row] = []
     for cutoff, theories in curves.items():
         for name, which in (("original", "original"), ("modified", "implicit")):
-            for v, mu in zip(_LISTED, _at(theories[which].mu, _LISTED).tolist(), strict=True):
-                source = f"cut off at {cutoff}"
-                rows.append((f"friction at {v:g} m/s, {name}", r"$\mu$", mu, "-", source))
-    factors = _at(curves[_CUTOFFS[0]]["implicit"].shift_factor, _LISTED).tolist()
-    for v, factor in zip(_LISTED, factors, strict=True):
-        rows.append((f"shift factor at {v:g} m/s", "$p_T$", factor, "-", "implicit"))
-    return rows
+            what, mu = f"friction at {{}}, {name}", theories[which].mu
+            rows += _listed(what, mu, r"$\mu$", "-", f"cut off at {cutoff}")
+    factors = curves[_CUTOFFS[0]]["implicit"].shift_factor
+    return [*rows, *_listed("shift factor at {}", factors, "$p_T$", "-", "implicit")]
 
 
 def _hot_theories(inputs: Inputs) -> dict[str, Mapping[str, Friction]]:
@@ -281,12 +284,7 @@ def _hot_rows(inputs: Inputs) -> list[_Row]:
     theories = _hot_theories(inputs)
     for cutoff, hot in theories["original"].items():
         source = f"cut off at {cutoff}"
-        both = (("original", hot), ("modified", theories["implicit"][cutoff]))
-        for name, of in both:
-            for v, mu in zip(_LISTED, _at(of.mu, _LISTED).tolist(), strict=True):
-                rows.append(
-                    (f"friction at {v:g} m/s, {name}, flash heat", r"$\mu$", mu, "-", source)
-                )
-        for v, kelvin in zip(_LISTED, _at(rise(hot), _LISTED).tolist(), strict=True):
-            rows.append((f"rise at {v:g} m/s, original", r"$T(q_1) - T_0$", kelvin, "K", source))
+        for name, of in (("original", hot), ("modified", theories["implicit"][cutoff])):
+            rows += _listed(f"friction at {{}}, {name}, flash heat", of.mu, r"$\mu$", "-", source)
+        rows += _listed("rise at {}, original", rise(hot), r"$T(q_1) - T_0$", "K", source)
     return rows
