@@ -64,7 +64,7 @@ def design(scene: Scene) -> Design:
     rows = [
         row
         for at, p, v in zip(np.ndindex(shape), pressure, velocity, strict=True)
-        for row in _at_point(result.gradients, at, p, v, shift)
+        for row in _at_point(result.gradients, at, (float(p), float(v)), shift)
     ]
     return Design(result, tuple(rows))
 
@@ -95,13 +95,8 @@ def worth_text(found: Design) -> str:
 
 
 def _at_point(
-    of: Gradients,
-    i: tuple[int, ...],
-    pressure: float,
-    velocity: float,
-    shift: TemperatureShift | None,
+    of: Gradients, i: tuple[int, ...], point: tuple[float, float], shift: TemperatureShift | None
 ) -> Iterator[Worth]:
-    point = float(pressure), float(velocity)
     for part in ("storage", "loss"):
         edges, sums = by_decade(of.angular_frequency, getattr(of, part)[i])
         for k, worth in enumerate(sums):

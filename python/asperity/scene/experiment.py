@@ -19,6 +19,7 @@ from asperity.io.read_friction import MeasuredFriction
 from asperity.rubber import Rubber
 from asperity.scene.model import Progress, Scene, SceneFriction
 from asperity.spectrum import Spectrum
+from asperity.uncertainty.band import DrawAdhesion
 from asperity.uncertainty.draws import Generator
 
 # arguments of Adhesion by the names that files give them
@@ -97,26 +98,22 @@ class Experiment:
             return curves
         refit = None
         if adhesion is not None and scene.has_measured_errors:
-            refit = partial(self._refit, scene, adhesion)
+            refit = self._refit(scene, adhesion.residual)
         return curves.within(scene.band(curves.mu, progress, refit))
 
-    def _refit(
-        self,
-        scene: Scene,
-        adhesion: AdhesionFit,
-        spectrum: Spectrum,
-        rubber: Rubber,
-        rng: Generator,
-    ) -> AdhesionFit:
-        for _ in range(_TRIES):
-            noise = np.exp(adhesion.residual * rng.normal(size=self.measured.mu.size))
-            with suppress(InvalidInput):  # a draw that leaves a parameter open
-                return self.fit(scene, spectrum, rubber, self.measured.mu * noise)
-        raise NotConverged(
-            f"the points determine no adhesion on {_TRIES} draws of the surface and rubber in a "
-            "row: no band",
-            where=self.path,
-        )
+    def _refit(self, scene: Scene, scatter: float) -> DrawAdhesion:
+        def refitted(spectrum: Spectrum, rubber: Rubber, rng: Generator) -> AdhesionFit:
+            for _ in range(_TRIES):
+                noise = np.exp(scatter * rng.normal(size=self.measured.mu.size))
+                with suppress(InvalidInput):  # a draw that leaves a parameter open
+                    return self.fit(scene, spectrum, rubber, self.measured.mu * noise)
+            raise NotConverged(
+                f"the points determine no adhesion on {_TRIES} draws of the surface and rubber in "
+                "a row: no band",
+                where=self.path,
+            )
+
+        return refitted
 
 
 def found(adhesion: AdhesionFit) -> dict[str, float]:

@@ -45,7 +45,11 @@ def error_figure(
         axes.axhline(0, color=grey(0.4), linewidth=0.8)
         for i, band in enumerate(bands):
             for hurst, mark in zip(exponents, cycle(_MARKS), strict=False):
-                _draw_errors(axes, group, band, hurst, quantity, colours[i], mark)
+                points = [p for p in group if (p.contact.band, p.contact.hurst) == (band, hurst)]
+                load = [p.contact.load for p in points]
+                error = [100 * p.error(quantity) for p in points]
+                style = {"markersize": 3, "markeredgewidth": 0, "alpha": 0.8}
+                axes.plot(load, error, mark, color=colours[i], **style)
         axes.set_title(shown(group[0].model.name), fontsize="medium")
         axes.tick_params(which="both", direction="in", top=True, right=True)
     for axes in panels[len(predictions) :]:
@@ -82,21 +86,6 @@ def _different(
     for group in predictions:
         kept.setdefault(tuple(prediction.error(quantity) for prediction in group), group)
     return list(kept.values())
-
-
-def _draw_errors(
-    axes: "Axes",
-    group: Sequence[Prediction],
-    band: float,
-    hurst: float | None,
-    quantity: Quantity,
-    colour: object,
-    mark: str,
-) -> None:
-    points = [p for p in group if p.contact.band == band and p.contact.hurst == hurst]
-    load = [p.contact.load for p in points]
-    error = [100 * p.error(quantity) for p in points]
-    axes.plot(load, error, mark, color=colour, markersize=3, markeredgewidth=0, alpha=0.8)
 
 
 def shown(model: str) -> str:
