@@ -22,7 +22,7 @@ import numpy as np
 from contact_tables import Row
 
 import asperity
-from asperity.validation import slide
+from asperity.validation import SlidingContact, slide
 
 TABLE = Path(__file__).with_name("exact_sliding.csv")
 COMMENT = """\
@@ -96,24 +96,27 @@ def surface(row: Row) -> asperity.HeightMap:
     return asperity.HeightMap((h - h.mean()) / slope, pixel_size=1 / points)
 
 
-def solved(row: Row) -> Row:
-    """Return the row with what the solver says of its contact."""
-    result = slide(
-        surface(row),
-        rubber(row["rubber"]),
-        pressure=float(row["pressure"]),
-        velocity=float(row["velocity"]),
-        periodic=True,
-        rtol=1e-4,
-    )
-    return row | contact_tables.figures(
+def pressed(height_map: asperity.HeightMap, row: Row, rtol: float, **at: float) -> SlidingContact:
+    """Return the contact of a map with the rubber of a row, at its load and speed or others."""
+    at = {name: float(row[name]) for name in ("pressure", "velocity")} | at
+    return slide(height_map, rubber(row["rubber"]), **at, periodic=True, rtol=rtol)
+
+
+def found(result: SlidingContact, **more: float) -> Row:
+    """Return the figures of a contact."""
+    return contact_tables.figures(
         A=result.contact_area,
         A_raw=result.contact_area_raw,
         mu=result.hysteresis,
         work=result.work_of_slopes,
-        energy=result.elastic_energy,
-        error=result.error,
+        **more,
     )
+
+
+def solved(row: Row) -> Row:
+    """Return the row with what the solver says of its contact."""
+    result = pressed(surface(row), row, 1e-4)
+    return row | found(result, energy=result.elastic_energy, error=result.error)
 
 
 if __name__ == "__main__":

@@ -24,7 +24,6 @@ import numpy as np
 from contact_tables import Row
 
 import asperity
-from asperity.validation import slide
 
 TABLE = Path(__file__).with_name("exact_sliding_ends.csv")
 COMMENT = """\
@@ -83,20 +82,7 @@ def spectrum(row: Row) -> asperity.TabulatedSpectrum:
 
 def solved(row: Row) -> Row:
     """Return the row with what the solver says of its contact."""
-    result = slide(
-        surface(row),
-        make_exact_sliding.rubber(row["rubber"]),
-        pressure=float(row["pressure"]),
-        velocity=float(row["velocity"]),
-        periodic=True,
-        rtol=1e-3,
-    )
-    return row | contact_tables.figures(
-        A=result.contact_area,
-        A_raw=result.contact_area_raw,
-        mu=result.hysteresis,
-        work=result.work_of_slopes,
-    )
+    return row | make_exact_sliding.found(make_exact_sliding.pressed(surface(row), row, 1e-3))
 
 
 if __name__ == "__main__":

@@ -27,7 +27,6 @@ import make_exact_sliding
 import numpy as np
 
 import asperity
-from asperity.validation import slide
 
 TABLE = Path(__file__).with_name("exact_sliding_wide.csv")
 COMMENT = """\
@@ -94,14 +93,7 @@ def without_short_waves(map, last):
 
 def pressed(map, row, pressure, velocity):
     """Return the contact of a map with the rubber of a row."""
-    return slide(
-        map,
-        make_exact_sliding.rubber(row["rubber"]),
-        pressure=pressure,
-        velocity=velocity,
-        periodic=True,
-        rtol=1e-3,
-    )
+    return make_exact_sliding.pressed(map, row, 1e-3, pressure=pressure, velocity=velocity)
 
 
 def compliance(rubber, velocity, points):
@@ -182,13 +174,7 @@ def solved(row):
         ((area, mu),) = nested(row, edges, [load], map=map)
         figures |= {"A_nested": area, "mu_nested": mu}
     if map:
-        result = pressed(map, row, load, velocity)
-        figures |= {
-            "A": result.contact_area,
-            "A_raw": result.contact_area_raw,
-            "mu": result.hysteresis,
-            "work": result.work_of_slopes,
-        }
+        row = row | make_exact_sliding.found(pressed(map, row, load, velocity))
     return row | contact_tables.figures(**figures)
 
 

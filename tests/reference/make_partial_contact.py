@@ -11,6 +11,8 @@ their definition (a table's by Gauss rules in phi), the tail in 1 / x^3, the roo
 1 / (2 sqrt(kappa G1)).
 """
 
+from functools import partial
+
 import numpy as np
 import tables
 from make_friction_tabulated import sampled
@@ -153,34 +155,29 @@ def band(scene, integrals, between, last, rule, first, growth, longest):
     )
 
 
-def tail_in_logarithm(scene, integrals, between, last):
-    """Return int K c_w I (I2 / I2(v q_e))^0.25 x^-3 dln x for I2 and I1."""
+def tail_sums(scene, integrals, between, last, in_power):
+    """Return int K c_w I (I2 / I2(v q_e))^0.25 x^-3 dln x for I2 and I1, in ln x or in x^-3."""
     q_e = np.exp(last)
-    knots = np.log(np.array(scene.get("table", [[]])[0]) / (scene["velocity"] * q_e))
-    edges = np.unique(np.concatenate([np.linspace(0, np.log(TAIL_END), 40), knots]))
-    edges = edges[(edges >= 0) & (edges <= np.log(TAIL_END))]
-    z, weights, _ = nodes_on(edges, gauss(20))
-    i1, i2 = integrals(scene["velocity"] * q_e * np.exp(z))
+    knots = np.array(scene.get("table", [[]])[0]) / (scene["velocity"] * q_e)
+    knots = knots[(knots >= 1) & (knots <= TAIL_END)]
+    if in_power:
+        edges = np.unique([*np.geomspace(TAIL_END**-3, 1, 60), *knots**-3.0])
+        u, weights, _ = nodes_on(edges, gauss(28))
+        x, weights = u ** (-1 / 3), weights / 3
+    else:
+        edges = np.unique([*np.linspace(0, np.log(TAIL_END), 40), *np.log(knots)])
+        z, weights, _ = nodes_on(edges, gauss(20))
+        x, weights = np.exp(z), weights * np.exp(-3 * z)
+    i1, i2 = integrals(scene["velocity"] * q_e * x)
     stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * scene["pressure"])
     excess = (i2 / integrals(np.array([scene["velocity"] * q_e]))[1]) ** 0.25
     places, end = np.log(rows_of(scene["surface"])[0]), np.array([last])
-    factor = stiff**2 / 8 * end_window(between, places, end) * excess * weights * np.exp(-3 * z)
+    factor = stiff**2 / 8 * end_window(between, places, end) * excess * weights
     return (factor * i2).sum(), (factor * i1).sum()
 
 
-def tail_in_power(scene, integrals, between, last):
-    """Return the same in u = x^-3."""
-    q_e = np.exp(last)
-    knots = (np.array(scene.get("table", [[]])[0]) / (scene["velocity"] * q_e)) ** -3.0
-    edges = np.unique(np.concatenate([np.geomspace(TAIL_END**-3, 1, 60), knots]))
-    edges = edges[(edges >= TAIL_END**-3) & (edges <= 1)]
-    u, weights, _ = nodes_on(edges, gauss(28))
-    i1, i2 = integrals(scene["velocity"] * q_e * u ** (-1 / 3))
-    stiff = 1 / ((1 - scene["poisson_ratio"] ** 2) * scene["pressure"])
-    excess = (i2 / integrals(np.array([scene["velocity"] * q_e]))[1]) ** 0.25
-    places, end = np.log(rows_of(scene["surface"])[0]), np.array([last])
-    factor = stiff**2 / 8 * end_window(between, places, end) * excess * weights / 3
-    return (factor * i2).sum(), (factor * i1).sum()
+tail_in_logarithm = partial(tail_sums, in_power=False)
+tail_in_power = partial(tail_sums, in_power=True)
 
 
 def row(case, changes):
