@@ -1,6 +1,7 @@
 """From isotherms to a rubber: the master curve that they share."""
 
 from collections.abc import Iterable
+from dataclasses import field
 from typing import Any, Literal
 
 import numpy as np
@@ -94,6 +95,16 @@ class MasterCurveBuild(HasShiftFactors):
     notes : tuple of Note
         What a reader must know: averaged points, small overlaps, undetermined shifts, outliers, and
         what the other vertical shift would do.
+
+    Attributes
+    ----------
+    reference_temperature : float
+        T_ref [K].
+    temperature, log10_a_T : ndarray, shape (n,)
+        Temperatures of the isotherms [K], rising, and their shift factors [-].
+    standard_deviation : ndarray, shape (n,)
+        Standard deviation of log10_a_T against the isotherm nearest to T_ref [-]. Above 0.3 the
+        data do not fix the shift: see `undetermined` and `notes`.
     """
 
     master_curve: MasterCurve
@@ -103,10 +114,22 @@ class MasterCurveBuild(HasShiftFactors):
     residual: float
     covariance: Conversion[ArrayLike | None, NDArray[Any] | None] = ABSENT
     notes: tuple[Note, ...] = ()
+    reference_temperature: float = field(init=False)
+    temperature: Array = field(init=False)
+    log10_a_T: Array = field(init=False)  # noqa: N815
+    standard_deviation: Array = field(init=False)
 
     def __post_init__(self) -> None:
         self._take()
-        self._set(shift_factors=shift_factors_of(self.shift_factors))
+        shifts = shift_factors_of(self.shift_factors)
+        deviation = shifts.standard_deviation
+        self._set(
+            shift_factors=shifts,
+            reference_temperature=shifts.reference_temperature,
+            temperature=shifts.temperature,
+            log10_a_T=shifts.log10_a_T,
+            standard_deviation=frozen(np.empty(0)) if deviation is None else deviation,
+        )
         n = self.temperature.size
         _require_length(self.b_T, "b_T", n)
         if np.any(self.points.isotherm >= n):
@@ -119,30 +142,6 @@ class MasterCurveBuild(HasShiftFactors):
                 raise unfit("covariance", covariance, problem)
             self._set(covariance=frozen(covariance))
         self._set(_core=self.shift_factors._core)
-
-    @property
-    def reference_temperature(self) -> float:
-        """T_ref [K]."""
-        return self.shift_factors.reference_temperature
-
-    @property
-    def temperature(self) -> Array:
-        """Temperatures of the isotherms [K], rising, shape (n,)."""
-        return self.shift_factors.temperature
-
-    @property
-    def log10_a_T(self) -> Array:  # noqa: N802
-        """Shift factors of the isotherms [-], shape (n,)."""
-        return self.shift_factors.log10_a_T
-
-    @property
-    def standard_deviation(self) -> Array:
-        """Standard deviation of log10_a_T against the isotherm nearest to T_ref [-], shape (n,).
-
-        Above 0.3 the data do not fix the shift: see `undetermined` and `notes`.
-        """
-        deviation = self.shift_factors.standard_deviation
-        return frozen(np.empty(0)) if deviation is None else deviation
 
     def _covariance_of_shifts(self) -> Array:
         return np.empty(0) if self.covariance is None else self.covariance

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import field
 from typing import Any, Literal
 
 import numpy as np
@@ -10,7 +11,6 @@ from asperity import _core
 from asperity.base.arguments import (
     Covariance,
     choice,
-    frozen,
     number,
     number_or_none,
     of_kind,
@@ -44,6 +44,13 @@ class SelfAffineFit(Table):
     rows : int
         Number of rows of the measured spectrum that were used; those below q0 are counted where
         there is a roll-off.
+    rms_height, hurst : float
+        Root mean square height on [q0, q1] [m], Hurst exponent [-].
+    q0, q1 : float
+        Wavenumber at which the fit begins, of the first reliable row or the first above q_min, and
+        that of the last row that was used [1/m].
+    rolloff : float or None
+        Wavenumber at which the flat part ends [1/m]; None where there is none.
     """
 
     spectrum: SelfAffineSpectrum
@@ -51,31 +58,16 @@ class SelfAffineFit(Table):
     residual: float
     rows: int
 
-    @property
-    def rms_height(self) -> float:
-        """Root mean square height on [q0, q1] [m]."""
-        return self.spectrum.rms_height
+    rms_height: float = field(init=False)
+    hurst: float = field(init=False)
+    q0: float = field(init=False)
+    q1: float = field(init=False)
+    rolloff: float | None = field(init=False)
 
-    @property
-    def hurst(self) -> float:
-        """Hurst exponent H [-]."""
-        return self.spectrum.hurst
-
-    @property
-    def q0(self) -> float:
-        """Wavenumber at which the fit begins: of the first reliable row or the first above q_min
-        [1/m]."""
-        return self.spectrum.q0
-
-    @property
-    def q1(self) -> float:
-        """Wavenumber of the last row that was used [1/m]."""
-        return self.spectrum.q1
-
-    @property
-    def rolloff(self) -> float | None:
-        """Wavenumber at which the flat part ends [1/m]; None where there is no flat part."""
-        return self.spectrum.rolloff
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        names = ("rms_height", "hurst", "q0", "q1", "rolloff")
+        self._set(**{name: getattr(self.spectrum, name) for name in names})
 
     @property
     def standard_errors(self) -> dict[str, float]:
@@ -158,9 +150,9 @@ def fit_self_affine(
     band = number_or_none(q_min, "q_min"), number_or_none(q_max, "q_max")
     how = choice(method, "method", FitMethod), choice(rolloff, "rolloff", Rolloff)
     law, covariance, residual, rows = _core.fit_self_affine(core, *band, *how)
-    return SelfAffineFit._made(
+    return SelfAffineFit(
         spectrum=around(SelfAffineSpectrum, law),
-        covariance=frozen(covariance),
+        covariance=covariance,
         residual=residual,
         rows=rows,
     )
