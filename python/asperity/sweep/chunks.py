@@ -48,20 +48,9 @@ def encoded(outcome: Outcome, names: Sequence[str], cut: tuple[int, ...]) -> lis
 
 
 def _chunk(numbers: Any, box: tuple[int, ...], cut: tuple[int, ...]) -> bytes:
-    if box == cut and not np.shape(numbers):
-        return _of_one(numbers.tobytes(), cut)
-    if box != cut or not np.shape(numbers):
-        whole = np.zeros(cut, numbers.dtype)  # what is past an end of the array is never read
-        whole[tuple(map(slice, box))] = numbers
-        numbers = whole
-    content: bytes = _blosc().encode(np.ascontiguousarray(numbers))
-    return content
-
-
-@lru_cache(maxsize=16)
-def _of_one(number: bytes, cut: tuple[int, ...]) -> bytes:
-    """A chunk of one number."""
-    content: bytes = _blosc().encode(np.full(cut, np.frombuffer(number)[0]))
+    whole = np.zeros(cut, numbers.dtype)  # what is past an end of the array is never read
+    whole[tuple(map(slice, box))] = numbers
+    content: bytes = _blosc().encode(whole)
     return content
 
 
