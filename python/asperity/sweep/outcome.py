@@ -62,11 +62,7 @@ class Outcome(Lacking):
 
     def put(self, name: str, where: Where, part: slice, numbers: Numbers) -> None:
         """Put the numbers of a run of points, counted along what is at `where` in the box."""
-        view = self.array(name)[where]
-        if numbers.size == view.size:
-            view[...] = numbers.reshape(view.shape)
-        else:
-            view.flat[part] = numbers
+        self.array(name)[where].flat[part] = numbers
 
     def fail(self, error: Error, where: Where, part: slice = slice(None)) -> None:
         """Note why there is nothing at some of the points; what failed before stays."""
