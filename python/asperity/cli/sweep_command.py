@@ -154,7 +154,7 @@ def _tell(plan: Any, executor: Executor) -> None:
     cost = timed(plan, executor)
     cut = cut_of(plan, cost)
     tasks = math.prod(math.ceil(n / c) for n, c in zip(plan.shape, cut, strict=True))
-    size = plan.points * 8 * (len(plan.variables) + 1)
+    size = plan.points * 8 * (len(plan.task.variables) + 1)
     seconds = estimated(plan, cost)
     facts = {
         "points": plan.points,

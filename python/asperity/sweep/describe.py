@@ -33,7 +33,7 @@ class Described:
 
     def __init__(self, plan: Plan) -> None:
         self.shape = plan.shape
-        self.variables = plan.variables
+        self.variables = plan.task.variables
         self.inputs = plan.inputs
         self.notes = plan.notes
         self.dimensions = tuple(axis.name for axis in plan.axes)

@@ -43,7 +43,6 @@ class Plan:
     path: Path  # whose errors they are
     tables: Mapping[str, Any]  # of the scene, as they were written
     axes: tuple[Axis, ...]  # as they were written
-    variables: tuple[str, ...]
     task: Task  # the whole sweep as one: with files found, and what the axes set left out
     notes: tuple[Note, ...] = ()  # numbers that their units make unlikely
 
@@ -67,7 +66,7 @@ class Plan:
             **{f"over {name}": values for name, values in over.items()},
             **{key: one for key, one in scene.items() if key not in swept},
             **{f"content of {file}": sha for file, sha in self.task.digests.items()},
-            "variables": list(self.variables),
+            "variables": list(self.task.variables),
         }
 
     def boxes(self, cut: Sequence[int]) -> Iterator[tuple[int, ...]]:
@@ -109,11 +108,11 @@ def plan_of(
     swept = {key for axis in axes for key in axis.values}
     folder = path.parent.absolute()
 
-    def found(file: str) -> str:  # from anywhere
-        return str(folder / file)
+    def from_anywhere(key: str, one: Any) -> Any:
+        return with_files(key, one, lambda file: str(folder / file))
 
     template = {
-        name: {key: with_files(f"{name}.{key}", one, found) for key, one in table.items()}
+        name: {key: from_anywhere(f"{name}.{key}", one) for key, one in table.items()}
         for name, table in tables.items()
     }
     # the axis that goes over a temperature takes the place of the scene's in the other unit
@@ -122,28 +121,22 @@ def plan_of(
             template["conditions"].pop(f"temperature_{other}", None)
     template = with_values(template, dict.fromkeys(swept - {"correction.kind"}))
     template.setdefault("conditions", {})
-    absolute = tuple(
-        Axis(
-            axis.name,
-            {
-                key: tuple(with_files(key, one, found) for one in of) if key in FILES else of
-                for key, of in axis.values.items()
-            },
-        )
-        for axis in axes
-    )
-    chosen = _variables(where, template, swept, variables)
+    absolute: list[Axis] = []
+    for axis in axes:
+        swept_files = [key for key in FILES if key in axis.values]
+        files = {k: tuple(from_anywhere(k, one) for one in axis.values[k]) for k in swept_files}
+        absolute.append(replace(axis, values={**axis.values, **files}))
     task = Task(
         path=str(path),
         tables=template,
-        axes=absolute,
+        axes=tuple(absolute),
         start=(0,) * len(axes),
         shape=tuple(axis.size for axis in axes),
         pressures=_pressures(path, absolute, template),
         digests={file: digest(file) for file in dict.fromkeys(_all_files(template, absolute))},
-        variables=chosen,
+        variables=_variables(where, template, swept, variables),
     )
-    return Plan(path, tables, axes, chosen, task)
+    return Plan(path, tables, axes, task)
 
 
 def _plain_tables(path: Path, tables: object) -> dict[str, Any]:
