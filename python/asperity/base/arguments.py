@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 Shape = tuple[int, ...]
 Input = TypeVar("Input", contravariant=True)
 Output = TypeVar("Output", covariant=True)
+Known = TypeVar("Known")
 
 
 class Conversion(Protocol[Input, Output]):
@@ -171,7 +172,7 @@ def covariance_matrix(value: Any, name: str) -> Array:
     return frozen(np.array(matrix, order="C"))
 
 
-def known(value: Any) -> Any:
+def known(value: Known | None) -> Known:
     """Return what was seen not to be None before."""
     assert value is not None
     return value

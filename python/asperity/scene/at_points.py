@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asperity._core import InvalidInput, NotConverged, OutOfRange
-from asperity.base.arguments import Array
+from asperity.base.arguments import Array, known
 from asperity.base.diagnostics import Note, fatal_first, must_have
 from asperity.io.read_friction import MeasuredFriction
 from asperity.results.friction import Friction
@@ -92,8 +92,8 @@ class Slopes:
     @property
     def how(self) -> dict[str, str]:
         """Return by what each unknown has its slopes."""
-        known = ("differences", "gradients")
-        return {one.key: known[one.key in self._known] for one in self.unknowns}
+        ways = ("differences", "gradients")
+        return {one.key: ways[one.key in self._known] for one in self.unknowns}
 
     def log_mu(self, inside: Array) -> Array:
         """Return ln mu of every point; infinite where a trial is no scene."""
@@ -119,10 +119,9 @@ class Slopes:
         tables = with_numbers(self.model.tables, self.unknowns, inside)
         with suppress(InvalidInput):
             for _, here, found in self.model.friction(tables, gradients=True):
-                assert found.gradients is not None
                 for k, one in enumerate(self.unknowns):
                     if one.key in self._known:
-                        result[here, k] = one.slope(found.gradients, tables) / found.mu
+                        result[here, k] = one.slope(known(found.gradients), tables) / found.mu
 
     def _difference(self, inside: Array, k: int, step: float) -> Array:
         moved = np.zeros(inside.size)
@@ -130,8 +129,7 @@ class Slopes:
         below, above = self.log_mu(inside - moved), self.log_mu(inside + moved)
         ends = [not np.isfinite(one).all() for one in (below, above)]
         if all(ends):
-            assert self.failure is not None
-            raise self.failure
+            raise known(self.failure)
         if any(ends):  # the last number that a scene may have
             here = self.log_mu(inside)
             return (here - below if ends[1] else above - here) / step
@@ -178,11 +176,13 @@ def predicted(
             width = NormalDist().inv_cdf((1 + scene.sampling["level"]) / 2)
             inputs[here] = np.log(band.upper / band.lower) / (2 * width)
             notes += scene.notes_with(band.notes)
-    known = np.nan_to_num(np.array([numbers, inputs, theory]))
-    away = np.exp(_NORMAL * np.sqrt((known**2).sum(axis=0) + (scatter or 0.0) ** 2))
-    errors = {"numbers_error": numbers, "inputs_error": inputs, "model_error": theory}
-    band_of_mu = {"band_lower": mu / away, "band_upper": mu * away}
-    return {"tables": tables, "mu": mu, **errors, **band_of_mu, "notes": fatal_first(notes)}
+    errors = np.nan_to_num(np.array([numbers, inputs, theory]))
+    away = np.exp(_NORMAL * np.sqrt((errors**2).sum(axis=0) + (scatter or 0.0) ** 2))
+    return {
+        **{"tables": tables, "mu": mu, "notes": fatal_first(notes)},
+        **{"numbers_error": numbers, "inputs_error": inputs, "model_error": theory},
+        **{"band_lower": mu / away, "band_upper": mu * away},
+    }
 
 
 def sentence_on(
@@ -215,8 +215,8 @@ def _share(result: float) -> str:
 
 
 def _rms(error: Array) -> str:
-    known = error[np.isfinite(error)]
-    if not known.size:
+    finite = error[np.isfinite(error)]
+    if not finite.size:
         return "not known"
-    some = "" if known.size == error.size else f" at {known.size} points"
-    return f"{_share(float(np.sqrt(np.mean(known**2))))}{some}"
+    some = "" if finite.size == error.size else f" at {finite.size} points"
+    return f"{_share(float(np.sqrt(np.mean(finite**2))))}{some}"

@@ -10,7 +10,7 @@ import numpy as np
 
 from asperity import _core
 from asperity._core import InvalidInput, OutOfRange
-from asperity.base.arguments import Array
+from asperity.base.arguments import Array, known
 from asperity.results.friction import Friction
 from asperity.results.gradients import DENSITIES, SEVERAL, Gradients
 from asperity.scan_contact import ScanContact
@@ -51,20 +51,18 @@ class Design:
     @property
     def gradients(self) -> Gradients:
         """The slopes of mu."""
-        assert self.result.gradients is not None
-        return self.result.gradients
+        return known(self.result.gradients)
 
 
 def design(scene: Scene) -> Design:
     """Return what 10 % of each decade and number is worth at every point of a scene."""
     result = scene.friction(gradients=True)
-    assert result.gradients is not None
     shift, shape = scene.built_rubber.shift, np.shape(result.mu)
     pressure, velocity = scene.points
     rows = [
         row
         for at, p, v in zip(np.ndindex(shape), pressure, velocity, strict=True)
-        for row in _at_point(result.gradients, at, (float(p), float(v)), shift)
+        for row in _at_point(known(result.gradients), at, (float(p), float(v)), shift)
     ]
     return Design(result, tuple(rows))
 

@@ -246,7 +246,7 @@ class Scene:
     def roughly(self) -> Callable[..., Friction]:
         """`friction` to a few digits with heat, of the rubber at its reference, shifted."""
         how: Any = {**self.options, **self._law, "adhesion": self.adhesion, "rtol": ROUGHLY}
-        rubber = known(self.built_rubber.at_reference)
+        rubber: Any = self.built_rubber.at_reference
         return partial(friction, self.spectrum, rubber, correction=self.correction, **how)
 
     @property
