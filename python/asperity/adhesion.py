@@ -57,7 +57,6 @@ PARAMETERS = ("shear_stress", "reference_velocity", "width")
 
 
 def adhesion_core(adhesion: Adhesion | None) -> Any:
-    """Return an adhesion as the core takes it."""
     if adhesion is None:
         return None
     if not isinstance(adhesion, Adhesion):

@@ -42,7 +42,6 @@ def contact_model(
     strain_factors: StrainFactors | None = None,
     direction: float = 0.0,
 ) -> Any:
-    """Return how the contact is computed, as the core takes it."""
     if correction is not None and not isinstance(correction, CORRECTIONS):
         names = ", ".join(kind.__name__ for kind in CORRECTIONS)
         raise refusal("correction", correction, f"None or one of {names}")
@@ -58,7 +57,6 @@ def contact_model(
 
 
 def surface_and_rubber(spectrum: AnySpectrum, rubber: AnyRubber) -> tuple[Any, Any]:
-    """Return the two as the core takes them."""
     return spectrum_of(spectrum)._core, rubber_of(rubber)._core
 
 
@@ -276,7 +274,6 @@ def _at_points(
     wavenumber: Any,
     more: Shape = (),
 ) -> Any:
-    """Return what the core gives, of each direction at a time, in the shape of all and `more`."""
     parts = surface_and_rubber(spectrum, rubber)
     points, direction = at
     shape, each = toward_each(direction, points)

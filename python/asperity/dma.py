@@ -177,7 +177,6 @@ AnyRubber = Rubber | MasterCurveBuild
 
 
 def rubber_of(rubber: AnyRubber) -> Rubber:
-    """Return the master curve of a build, and any other rubber as it is."""
     solid: Any = of_kind(rubber, "rubber", PronySeries, MasterCurve, MasterCurveBuild)
     return solid.master_curve if isinstance(solid, MasterCurveBuild) else solid
 
@@ -250,7 +249,6 @@ def build_master_curve(
 
 
 def _built(parts: tuple[Any, ...], extrapolation: Extrapolation | None) -> MasterCurveBuild:
-    """Return a build from the parts that the core's has."""
     curve, shifts, b_T, points, residual, covariance, notes = parts  # noqa: N806
     shift_factors = around(ShiftFactors, shifts)
     beside = {"extrapolation": extrapolation, "shift_factors": shift_factors, "notes": notes}

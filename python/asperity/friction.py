@@ -202,7 +202,6 @@ def friction(
 
 
 def _held_ratio(correction: Correction | None) -> tuple[Note, ...]:
-    """Return what there is to say of the slopes of a scan."""
     if not isinstance(correction, ScanContact):
         return ()
     text = (
@@ -247,7 +246,6 @@ def known_shift(rubber: AnyRubber, shift: TemperatureShift | None) -> Temperatur
 def check_temperature(
     temperature: ArrayLike | None, shift: TemperatureShift | None, law: TemperatureShift | None
 ) -> None:
-    """Refuse a shift without a temperature, and a temperature without a shift."""
     if temperature is None and shift is not None:
         raise unfit("shift", shift, "needs temperature=, at which to take a_T")
     if temperature is not None and law is None:

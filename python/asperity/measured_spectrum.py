@@ -34,7 +34,6 @@ def prepared(window: Window, detrend: Detrend | None) -> tuple[int, int | None]:
 
 
 def core_map(surface: Any) -> Any:
-    """Return the core's object of a map."""
     if isinstance(surface, LineScan):
         raise must_be("surface", "a HeightMap; line_spectrum takes line scans", " = a LineScan")
     return of_kind(surface, "surface", HeightMap)._core

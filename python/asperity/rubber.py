@@ -36,7 +36,6 @@ Extrapolation = Literal["power-law", "clamp"]  # in the order of the core's enum
 
 
 def extrapolation_number(name: Any) -> int | None:
-    """Return the number that an extrapolation has in the core."""
     at = choice(name, "extrapolation", (*get_args(Extrapolation), None))
     return None if name is None else at
 

@@ -242,5 +242,4 @@ class ScanContact(Value):
 
 
 def _with_contacts(arguments: Mapping[str, Any], contacts: ArrayLike) -> ScanContact:
-    """Make an object anew, with what another one has solved."""
     return ScanContact(**arguments)._add(contacts)

@@ -98,7 +98,6 @@ AnySpectrum = Spectrum | SelfAffineFit
 
 
 def spectrum_of(spectrum: AnySpectrum) -> Spectrum:
-    """Return the law of a fit, and any other spectrum as it is."""
     kinds = SelfAffineFit, SelfAffineSpectrum, TabulatedSpectrum
     surface: Spectrum | SelfAffineFit = of_kind(spectrum, "spectrum", *kinds)
     return surface.spectrum if isinstance(surface, SelfAffineFit) else surface

@@ -261,7 +261,6 @@ class ShiftFactors(HasShiftFactors):
 
 
 def shift_factors_of(shifts: Any) -> ShiftFactors:
-    """Return ShiftFactors, given as they are or by the build that they are part of."""
     if isinstance(shifts, ShiftFactors):
         return shifts
     if isinstance(shifts, HasShiftFactors):
@@ -274,7 +273,6 @@ TemperatureShift = WLF | WlfFit | ArrheniusFit | HasShiftFactors
 
 
 def temperature_shift_core(shift: Any) -> Any:
-    """Return a law or shift factors as the core takes them."""
     if isinstance(shift, _Law | HasShiftFactors):
         vertical = getattr(shift, "b_T", None)
         if vertical is not None and np.any(vertical != 1):

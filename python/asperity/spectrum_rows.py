@@ -106,7 +106,6 @@ def _flags(flags: Any) -> NDArray[np.uint8] | None:
 
 
 def _two_axes(entries: Any, name: str) -> Array | None:
-    """Return an array of two axes, rows of the spectrum and columns."""
     if entries is None:
         return None
     array = np.array(real_array(entries, name), order="C")

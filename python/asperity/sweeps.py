@@ -34,7 +34,6 @@ def draw_moduli(
     label: str = "Angular frequency $\\omega$ [rad/s]",
     styles: tuple[str, str] = ("-", "-"),
 ) -> None:
-    """Draw E' and E'' with logarithmic scales."""
     axes.loglog(x, storage, styles[0], color="C0", markersize=3, label="$E$′")
     axes.loglog(x, loss, styles[1], color="C1", markersize=3, label="$E$″")
     axes.set(xlabel=label, ylabel="Modulus [Pa]")
@@ -201,7 +200,6 @@ class StrainFactors(Table):
 
 
 def strain_core(strain_factors: StrainFactors | None) -> Any:
-    """Return the factors as the core takes them, or None."""
     if strain_factors is None:
         return None
     return of_kind(strain_factors, "strain_factors", StrainFactors)._core

@@ -29,12 +29,10 @@ def scan() -> NDArray[np.float32]:
 
 
 def scene_text() -> str:
-    """The scene file, as it ships."""
     return _shipped("scene.toml")
 
 
 def hot_scene_text() -> str:
-    """The same scene with the heat of sliding."""
     return f"{scene_text()}\n{_shipped('heating.toml')}"
 
 
@@ -43,7 +41,6 @@ def _shipped(name: str) -> str:
 
 
 def input_files() -> dict[str, bytes]:
-    """Content of the scan and of the scenes, by file name."""
     out = io.BytesIO()
     np.save(out, scan())
     scenes = {"scene.toml": scene_text(), "hot.toml": hot_scene_text()}

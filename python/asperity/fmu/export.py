@@ -81,7 +81,6 @@ def export_fmu(
 
 
 def platforms() -> tuple[str, ...]:
-    """The platforms for which this installation has a binary."""
     return tuple(one for one, (_, end) in PLATFORMS.items() if _binary(one, end).exists())
 
 
@@ -92,7 +91,6 @@ def _binary(platform: str, end: str) -> Path:
 def fmu_files(
     friction_map: FrictionMap, name: str = "friction", fmi: str = "2.0", points: int | None = None
 ) -> Iterator[tuple[str, bytes]]:
-    """What an FMU holds, by names in its archive."""
     listed = variables(friction_map)
     content = friction_map.to_bytes()
     digest = hashlib.sha256(f"{name} {fmi} {points} ".encode() + content).hexdigest()

@@ -172,7 +172,6 @@ def friction_map(
 def _law(
     rubber: Rubber, temperature: Any, shift: TemperatureShift | None, heating: Heating | None
 ) -> tuple[Any, list[float]]:
-    """Return the shift as the core takes it, and the ends of the temperatures."""
     law = known_shift(rubber, shift)
     if temperature is None or law is None:
         if heating is not None:

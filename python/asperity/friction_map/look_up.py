@@ -327,7 +327,6 @@ class FrictionMap(Table):
             raise must_be("temperature", f"given, the map covers [{lo:.12g}, {hi:.12g}] K")
 
     def _refuse(self, point: dict[str, float], options: tuple[bool, int], index: str) -> None:
-        """Say why a point has no value."""
         places = point["pressure"], point["velocity"], point["a_T"]
         heat = point.get("temperature", 0.0), point.get("distance", 0.0)
         turned = point.get("direction", 0.0)

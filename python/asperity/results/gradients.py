@@ -161,7 +161,6 @@ def reshaped(gradients: Gradients, shape: Shape) -> Gradients:
 
 
 def of_core(parts: tuple[Any, ...], shape: Shape) -> Gradients:
-    """Return the gradients from the core's columns."""
     q, spectrum, w, storage, loss, p, v, temperature, arguments, error = parts
     columns = {"pressure": p, "velocity": v, "error_estimate": error, **arguments}
     if temperature.size:

@@ -63,7 +63,6 @@ class AtPoints:
         ]
 
     def log_mu(self, tables: Mapping[str, Any]) -> Array:
-        """Return ln mu of every point."""
         result = np.empty(self.measured.mu.shape)
         with np.errstate(divide="ignore"):
             for _, here, found in self.friction(tables):

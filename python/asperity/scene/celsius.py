@@ -20,12 +20,10 @@ def celsius_in_errors(keys: Container[str]) -> AbstractContextManager[None]:
 
 
 def all_in_celsius(sentence: Sentence) -> Sentence:
-    """A sentence in which every temperature is in C."""
     return tuple(_in_celsius_of(phrase, ".4g") for phrase in sentence)
 
 
 def _in_celsius_of(phrase: str, form: str) -> str:
-    """A phrase, in C if it is a temperature or its unit."""
     if isinstance(phrase, Value) and phrase.tag == "K":
         return phrase.saying(format(phrase.numbers[0] - ZERO_CELSIUS, form))
     return phrase.saying(" C") if isinstance(phrase, Unit) and phrase.tag == "K" else phrase

@@ -50,7 +50,6 @@ class Design:
 
     @property
     def gradients(self) -> Gradients:
-        """The slopes of mu."""
         return known(self.result.gradients)
 
 
@@ -80,7 +79,6 @@ def design_at_largest(scene: Scene, mu: Array) -> Design | None:
 
 
 def worth_text(found: Design) -> str:
-    """What more of each condition and number is worth at the first point, the most first."""
     first = found.worths[0]
     here = [
         one

@@ -80,7 +80,6 @@ class Experiment:
         )
 
     def fit_scene(self, scene: Scene) -> tuple[AdhesionFit | None, InvalidInput | None]:
-        """The fit, or why there is none in words of the command line."""
         try:
             return self.fit(scene, scene.spectrum, scene.rubber, self.measured.mu), None
         except InvalidInput as error:

@@ -180,7 +180,6 @@ def _spare(solution: _Solution, noise: float) -> float:
 def _solved(
     slopes: Slopes, start: Array, noise: float, without: int | None = None, rtol: float = 1e-10
 ) -> _Solution:
-    """Return the least squares, of all points or without one of them."""
     least_squares = imported("scipy.optimize", "fit").least_squares
     unknowns, log_measured = slopes.unknowns, np.log(slopes.model.measured.mu)
     weight = np.full(log_measured.size, 1 / noise)
@@ -273,7 +272,6 @@ def _refuse(keys: Iterable[str], why: str, where: Path) -> None:
 
 
 def _left_out(slopes: Slopes, solution: _Solution, noise: float, covariance: Array) -> Array:
-    """Return mu of each point by a fit to the others, from where the linear one has them."""
     log_measured = np.log(slopes.model.measured.mu)
     result = np.empty(log_measured.size)
     for i, row in enumerate(solution.jacobian):

@@ -62,7 +62,6 @@ def _listed(path: Path, key: str, values: Any) -> list[float | None]:
 
 
 def check_heated(path: Path, temperature: float | None, rubber: BuiltRubber) -> None:
-    """Refuse heat where it has nothing to start from, or where nothing follows it."""
     if temperature is None:
         problem = "needs [conditions] temperature_k or temperature_c, from which the rubber warms"
         refuse(path, "[heating]", problem)
@@ -119,7 +118,6 @@ FILES = tuple(f"{t}.{key}" for t, of in KEYS.items() for key, f in of.items() if
 
 
 def files_of(tables: Mapping[str, Any]) -> list[str]:
-    """Files that the tables of a scene name."""
     files: list[str] = []
     for key in FILES:
         table, _, field = key.partition(".")

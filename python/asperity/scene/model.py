@@ -129,7 +129,6 @@ class Scene:
 
     @property
     def in_celsius(self) -> bool:
-        """Whether the temperature was given so."""
         return any(f"[{table}] temperature_c" in self.typed for table in ("conditions", "rubber"))
 
     def notes_with(self, remarks: Iterable[Note]) -> list[Note]:
@@ -150,13 +149,11 @@ class Scene:
 
     @property
     def temperature_text(self) -> str:
-        """The temperature in the unit that it was given in."""
         if self.temperature is None:
             return ""
         return temperature_text(self.temperature, celsius=self.in_celsius)
 
     def toward(self, direction_deg: float | None) -> "Scene":
-        """The same in a direction of sliding."""
         if direction_deg is None:
             return self
         options = {**self.options, "direction": math.radians(direction_deg)}
@@ -170,7 +167,6 @@ class Scene:
 
     @property
     def sources(self) -> list[Path]:
-        """The scene file and the files that it names."""
         return [self.path, *(self.path.parent / name for name in files_of(self.inputs))]
 
     @property
@@ -310,7 +306,6 @@ class Scene:
         return self.notes_with(remarks)
 
     def _at_points(self, compute: Callable[..., Any], progress: Progress) -> list[Any]:
-        """What the core's `compute` gives for each chunk of the points."""
         pressure, velocity = self.points
         chunks = [slice(i, i + _CHUNK) for i in range(0, pressure.size, _CHUNK)]
         with self._in_its_words():

@@ -44,7 +44,6 @@ HEATING_NAMES = names_of("heating", HEATING)
 
 
 def build_part(path: Path, name: str, table: object, part: type[_Part]) -> tuple[_Part, Values]:
-    """Adhesion or heating of a scene, which a table has all of."""
     fields = fields_of(part)
     section = Section.read(path, name, table, fields)
     needed = required(fields)

@@ -67,7 +67,6 @@ def nyquist(scan: Scan) -> float:
 
 
 def flat(scan: Scan, detrend: Detrend | None) -> Scan:
-    """The scan without its trend and without its mean."""
     return scan.detrend(detrend or "offset")
 
 
@@ -104,7 +103,6 @@ def lay_of(
 
 
 def scan_notes(scan: Scan, result: Lay | None, *, directional: bool = False) -> list[Note]:
-    """What a reader of the spectrum must know of the scan."""
     notes = []
     if isinstance(scan, LineScan):
         text = "of a line scan: C(q) is that of the isotropic surface with such profiles"

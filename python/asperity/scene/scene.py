@@ -221,7 +221,6 @@ def read_tables(path: Path) -> dict[str, Any]:
 
 
 def _list_isotherms(path: Path, rubber: Any) -> None:
-    """Put the names of files where patterns such as "dma/*.csv" stand for them."""
     if not isinstance(rubber, dict) or not isinstance(rubber.get("isotherms"), list):
         return
     names = []

@@ -23,7 +23,6 @@ class Section:
 
     @classmethod
     def read(cls, path: Path, name: str, table: object, fields: Mapping[str, Field]) -> "Section":
-        """The table, checked key by key."""
         return cls(path, name, read_table(path, name, table, fields))
 
     def having(self, values: Values) -> "Section":
@@ -33,7 +32,6 @@ class Section:
         refuse(self.path, f"[{self.name}] {key}", problem, phrase)
 
     def refuse_each(self, keys: Iterable[str], problem: str) -> None:
-        """Refuse those of `keys` that it has."""
         for key in keys:
             if key in self.values:
                 self.refuse(key, problem)
@@ -42,7 +40,6 @@ class Section:
         self.refuse_each(keys, f"must be left out where {where}")
 
     def require(self, *keys: str, hint: str = "") -> None:
-        """Refuse the table where it lacks one of `keys`."""
         for key in keys:
             if key not in self.values:
                 self.refuse(key, "missing" + (hint and f"; {hint}"))

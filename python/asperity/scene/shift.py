@@ -40,7 +40,6 @@ _AT_ONE = "or reference_temperature_c, at which a_T is 1"
 
 
 def shift_of(section: Section) -> ShiftFactors | WLF | None:
-    """a_T(T), from a file or from the constants of a law."""
     constants = [key for key in WLF_KEYS if key in section.values]
     if not constants:
         return shift_table(section)
@@ -60,7 +59,6 @@ def shift_table(section: Section) -> ShiftFactors | None:
 
 
 def shift_factor(section: Section, shifts: ShiftFactors | MasterCurveBuild | WLF) -> float:
-    """a_T at the scene's temperature."""
     at = section.values["temperature_k"]
     if at == section.values.get("reference_temperature_k"):
         return 1.0

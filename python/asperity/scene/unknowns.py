@@ -48,11 +48,9 @@ class Unknown:
     prior: Prior | None
 
     def inside(self, value: float) -> float:
-        """Return the coordinate of a value."""
         return value if self.is_plain else math.log(value)
 
     def value(self, inside: float) -> float:
-        """Return the value of a coordinate."""
         return inside if self.is_plain else math.exp(min(inside, 700.0))
 
     @property
@@ -143,7 +141,6 @@ def _start(
     field: Field,
     prior: Prior | None,
 ) -> float:
-    """Return the number that the scene has, or else its prior, or its default."""
     given = tables.get(table, {}).get(name)
     about = Argument(f"free: {table}.{name}" + (f"[{place}]" if place else ""))
     if isinstance(given, list):
@@ -198,7 +195,6 @@ def _prior(key: str, given: Any) -> Prior:
 def with_numbers(
     tables: Mapping[str, Any], unknowns: Sequence[Unknown], inside: Array
 ) -> dict[str, Any]:
-    """Return tables of a scene with the numbers of these coordinates."""
     changed = {name: dict(table) for name, table in tables.items()}
     for one, at in zip(unknowns, inside.tolist(), strict=True):
         table, value = changed.setdefault(one.table, {}), one.value(at)

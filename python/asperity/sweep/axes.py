@@ -105,7 +105,6 @@ def _axis(path: Path, name: str, entry: object) -> Axis:
 
 
 def _check_name(path: Path, name: str) -> None:
-    """Refuse a name of several keys that is no name of a file, or that of a key."""
     problem = None
     if not _NAME.fullmatch(name):
         problem = "must be of letters, digits, _, - and points, a letter or digit first"
@@ -193,7 +192,6 @@ def _plain(value: Any) -> Any:
 
 
 def _listed(path: Path, tables: Mapping[str, Any], key: str) -> Sequence[Any]:
-    """The list of a scene's key; empty where it has a number, or nothing."""
     table, _, field = key.partition(".")
     entries = tables.get(table)
     if not isinstance(entries, Mapping) or not isinstance(entries.get(field), Mapping | list):

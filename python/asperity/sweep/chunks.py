@@ -34,7 +34,6 @@ class Place:
     cut: tuple[int, ...]  # of a chunk
 
     def files(self, start: Sequence[int], names: Sequence[str]) -> Iterator[Path]:
-        """The files of the box at `start`."""
         index = [str(s // c) for s, c in zip(start, self.cut, strict=True)]
         for name in (*names, FAILURE):
             yield Path(self.path).joinpath(name, "c", *index)
@@ -62,7 +61,6 @@ def _blosc() -> Any:
 
 
 def write(files: Iterator[Path], contents: Sequence[bytes]) -> None:
-    """Write files, each whole or not at all."""
     for file, content in zip(files, contents, strict=True):
         if not content:
             file.unlink(missing_ok=True)

@@ -65,7 +65,6 @@ class Described:
         }
 
     def dataset(self, values: Mapping[str, Any], failure: Any, tally: Tally) -> Any:
-        """The results in memory."""
         xarray = imported("xarray", "sweep")
         variables = {name: (self.dimensions, one, _said(name)) for name, one in values.items()}
         codes, texts = _messages(tally.messages)
@@ -76,7 +75,6 @@ class Described:
         return xarray.Dataset(variables, coordinates, attributes)
 
     def create(self, zarr: Any, path: Path, cut: Sequence[int]) -> None:
-        """Create an empty Zarr store with chunks of `cut`."""
         beside = [name for name in self.coordinates if name not in self.dimensions]
         attributes = {**self.attributes(), "cut": list(cut), "complete": 0}
         if beside:
@@ -102,14 +100,12 @@ class Described:
 
 
 def consolidate(path: Path) -> None:
-    """Gather the metadata, as xarray wants it."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # on what the format's third version does not have yet
         imported("zarr", "sweep").consolidate_metadata(str(path))
 
 
 def _add(group: Any, name: str, dimension: str, values: Any, said: Mapping[str, str]) -> None:
-    """Write an array of one dimension, whole."""
     kind = str if values.dtype.kind in "UTO" else values.dtype
     array = group.create_array(
         name,

@@ -28,7 +28,6 @@ class Executor:
         self._asked, self._workers = -_AGAIN, 1
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Any:
-        """Return the future of a call."""
         if self._accepted is None:
             return _here(function, *arguments)
         return submitted(self._accepted, function, *arguments)

@@ -31,8 +31,6 @@ class Lacking:
 
 @dataclass
 class Outcome(Lacking):
-    """What came of a task."""
-
     start: tuple[int, ...]
     box: tuple[int, ...]
     values: dict[str, Any] = field(default_factory=dict)  # arrays of the box's shape, or a number
@@ -47,7 +45,6 @@ class Outcome(Lacking):
         return math.prod(self.box)
 
     def array(self, name: str) -> Numbers:
-        """The numbers of a variable, NaN where nothing was put."""
         if name not in self.values:
             self.values[name] = np.full(self.box, np.nan)
         numbers: Numbers = self.values[name]

@@ -70,13 +70,11 @@ class Plan:
         }
 
     def boxes(self, cut: Sequence[int]) -> Iterator[tuple[int, ...]]:
-        """Where the boxes begin, in the order of the axes."""
         return itertools.product(
             *(range(0, size, step) for size, step in zip(self.shape, cut, strict=True))
         )
 
     def box(self, start: Sequence[int], cut: Sequence[int]) -> Task:
-        """The task of a box."""
         ends = zip(self.task.axes, start, cut, strict=True)
         return self.part(tuple(axis.part(slice(s, s + c)) for axis, s, c in ends), tuple(start))
 
@@ -187,7 +185,6 @@ def _variables(
     swept: set[str],
     wanted: Sequence[str] | None,
 ) -> tuple[str, ...]:
-    """The variables that a sweep has, or those of them that are wanted."""
     has = {name for name in tables} | {key.partition(".")[0] for key in swept}
     every = [*PLAIN]
     if "heating" in has:

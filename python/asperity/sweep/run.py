@@ -192,7 +192,6 @@ def _fill(
     workers: Executor,
     progress: Progress | None,
 ) -> None:
-    """Compute what the sink does not have yet."""
     tasks = (plan.box(at, cut) for at in plan.boxes(cut) if not sink.has(at))
     arrived: SimpleQueue[Any] = SimpleQueue()
     pending: set[Any] = set()

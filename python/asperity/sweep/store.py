@@ -31,8 +31,6 @@ from asperity.sweep.task import TOKEN, token_of, write_box
 
 
 class Memory:
-    """Results that are kept in memory."""
-
     place = None
 
     def __init__(self, described: Described) -> None:
@@ -125,7 +123,6 @@ class ZarrStore:
                 self._add(outcome)
 
     def has(self, start: Sequence[int]) -> bool:
-        """Whether the box at `start` is whole."""
         return bool(self._done[self._index(start)])
 
     def _index(self, start: Sequence[int]) -> tuple[int, ...]:

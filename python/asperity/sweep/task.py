@@ -100,7 +100,6 @@ def _sent(values: Numbers) -> Any:
 
 
 def _compute_scene(task: Task, outcome: Outcome, at: dict[int, int]) -> None:
-    """Compute the scene at these places of the axes that make scenes."""
     rows = (slice(at[i], at[i] + 1) if i in at else slice(None) for i in range(len(task.box)))
     where = (*rows, ...)
     first = [task.start[i] + index for i, index in at.items()]
@@ -264,7 +263,6 @@ def work(task: Task) -> Outcome:
 
 
 def write_box(store: Place, variables: Sequence[str], outcome: Outcome) -> None:
-    """Write the files of a box, each whole or not at all."""
     try:
         chunks.write(store.files(outcome.start, variables), outcome.contents or [])
     except OSError as error:

@@ -96,7 +96,6 @@ Columns = dict[str, Any]  # arguments of TabulatedSpectrum
 
 
 def few_modes(density: Array, error: Array) -> NDArray[np.uint8]:
-    """Return the flag of rows whose error is more than a quarter of their density."""
     return np.where(error > density / 4, _FEW_MODES, 0).astype(np.uint8)
 
 

@@ -31,7 +31,6 @@ class FileArray:
     stamp: Stamp
 
     def __getitem__(self, box: tuple[slice, slice]) -> NDArray[Any]:
-        """Return a copy of a rectangle."""
         (y0, y1), (x0, x1) = ((part.start, part.stop) for part in box)
         (down, along), item = self.strides, self.dtype.itemsize
         if abs(along) > abs(down):  # a transposed file: its rows are these columns

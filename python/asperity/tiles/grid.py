@@ -27,7 +27,6 @@ class Grid:
 
     @property
     def boxes(self) -> list[Box]:
-        """The tiles, row by row."""
         (ny, nx), (down, along) = self.tile, self.starts
         return [(slice(y, y + ny), slice(x, x + nx)) for y in down for x in along]
 

@@ -131,7 +131,6 @@ def _array(array: Any) -> Any:
 
 
 def _held(array: NDArray[Any]) -> Any:
-    """Return the array, or the file behind a memory map."""
     if is_masked(array):
         return array
     file: FileArray | None = file_behind(array)
@@ -170,7 +169,6 @@ def refuse_infinite(heights: NDArray[Any], corner: Shape) -> None:
 
 
 def corner_of(box: Box) -> Shape:
-    """Return where a box begins."""
     return box[0].start, box[1].start
 
 
@@ -203,7 +201,6 @@ def fill_values(array: Any) -> tuple[Any, ...]:
 
 
 def without(heights: NDArray[Any], fill: tuple[Any, ...], real: np.dtype[Any]) -> NDArray[Any]:
-    """Return a copy with NaN where there is one of these numbers."""
     missing = np.zeros(heights.shape, bool)
     for number in fill:
         missing |= heights == number
@@ -214,7 +211,6 @@ def without(heights: NDArray[Any], fill: tuple[Any, ...], real: np.dtype[Any]) -
 
 
 def _in_type(stated: Any, name: str, dtype: np.dtype[Any]) -> Any:
-    """Return a number in the type of the heights, or None where it is NaN, which is no height."""
     number = _decoded(stated)
     if isinstance(number, float) and math.isnan(number):
         return None

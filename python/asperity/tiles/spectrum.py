@@ -71,7 +71,6 @@ def tile_columns(
 def _single(
     source: Source, grid: Grid, how: tuple[Any, ...], workers: Workers
 ) -> TabulatedSpectrum:
-    """The spectrum of a map that is one tile: the work of one worker."""
     piece = source.piece(grid.boxes[0])
     (columns,) = workers.outcomes(tile_columns, [(piece, source.pixel_size, how)])
     if columns is None:
@@ -120,7 +119,6 @@ def _mean_rows(source: Source, grid: Grid, how: tuple[Any, ...], workers: Worker
 
 
 def _of_coarse(coarse: Coarse, how: tuple[Any, ...]) -> Any:
-    """The core's spectrum of the coarse map."""
     window, detrend, _ = how
     heights = _core.HeightMap(coarse.heights, coarse.pixel_size)
     if heights.dropout_fraction:
@@ -131,7 +129,6 @@ def _of_coarse(coarse: Coarse, how: tuple[Any, ...]) -> Any:
 def _low_rows(
     spectrum: Any, coarse: Coarse, source: Source, grid: Grid, fine: Columns, window: int
 ) -> Columns:
-    """The rows of the coarse map that tiles are too small for."""
     below = spectrum.wavenumber < _edge(grid, source.pixel_size, window)[1]
     rows = {name: getattr(spectrum, name)[below] for name in _COLUMNS}
     rows["flag"] = rows["flag"] & ~np.uint8(_NEAR_NYQUIST)

@@ -139,7 +139,6 @@ def height_statistics(
 
 
 def _wider(box: Box, shape: Shape) -> Box:
-    """The box with the neighbours of its points."""
     down, along = (
         slice(max(0, part.start - 1), min(part.stop + 1, side))
         for part, side in zip(box, shape, strict=True)
@@ -148,7 +147,6 @@ def _wider(box: Box, shape: Shape) -> Box:
 
 
 def _inside(wide: Box, box: Box) -> Box:
-    """The box, counted from the corner of the wider one."""
     down, along = (
         slice(part.start - outer.start, part.stop - outer.start)
         for outer, part in zip(wide, box, strict=True)

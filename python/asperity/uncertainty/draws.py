@@ -124,7 +124,6 @@ def _draw_rings(
 def rows_like(
     table: TabulatedSpectrum, density: Any, cosine: Any = None, sine: Any = None
 ) -> TabulatedSpectrum:
-    """Rows with other densities on the band of a table."""
     return TabulatedSpectrum(
         wavenumber=table.wavenumber, density=density, cosine=cosine, sine=sine, q1=table.q1
     )

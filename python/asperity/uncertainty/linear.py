@@ -114,7 +114,6 @@ def _deviation(inputs: Inputs) -> tuple[Array, Array]:
 
 
 def _curvature_notes(curved: Array) -> tuple[Note, ...]:
-    """Return what there is to say where slopes are not good enough."""
     wrong = np.flatnonzero(curved > MOST_CURVED)
     if not wrong.size:
         return ()

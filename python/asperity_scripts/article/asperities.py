@@ -13,7 +13,6 @@ from asperity_scripts.article.statement import Finding, Findings
 
 
 def findings(inputs: Inputs) -> Findings:
-    """Each equation of Section 3.2 put to a number."""
     h0, stiff = inputs.sandpaper.rms_height, modulus_of(inputs.compound_a)
     return {
         "E1": {"": _eq14(h0, stiff)},

@@ -46,7 +46,6 @@ _FIGURES: tuple[Callable[[Inputs], dict[str, bytes]], ...] = (
 
 
 def article(args: Namespace) -> None:
-    """Write all pictures, tables and the summary, and show how many statements hold."""
     directory = FilePath(args.output)
     check_plot(directory / f"{PAGES[0]}.png")
     check_directory(directory, FILES, force=args.force)
@@ -57,7 +56,6 @@ def article(args: Namespace) -> None:
 
 
 def remake() -> tuple[dict[str, bytes], Rows]:
-    """All files by their names, and the statements."""
     inputs = prepare()
     findings = {
         name: finding for topic in _TOPICS for name, finding in topic.findings(inputs).items()

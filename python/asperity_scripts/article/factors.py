@@ -116,7 +116,6 @@ def fig11(inputs: Inputs) -> dict[str, bytes]:
 
 
 def fig12(inputs: Inputs) -> dict[str, bytes]:
-    """Area with IGW beside the original one."""
     model = inputs.tuned["implicit"]
     return _areas("fig12", _facts(inputs), model, model.correction, "modified, IGW")
 
@@ -191,7 +190,6 @@ def _areas(
 
 
 def _columns(curves: dict[str, Array]) -> dict[str, list[Any]]:
-    """Pressures below one another."""
     return stacked(
         [
             {"pressure_pa": pressure, "magnification": _ZETA}

@@ -61,22 +61,18 @@ def stacked(curves: Sequence[Mapping[str, Any]]) -> dict[str, list[Any]]:
 
 
 def sandpaper_inputs(inputs: Inputs) -> dict[str, Any]:
-    """The sandpaper's analytic spectrum."""
     return {"surface": "120-grit sandpaper", **_band(inputs.sandpaper)}
 
 
 def asphalt_inputs(inputs: Inputs) -> dict[str, Any]:
-    """The asphalt's analytic spectrum."""
     return {"surface": "asphalt", **_band(inputs.asphalt)}
 
 
 def scan_inputs(skewness: float = SKEWNESS) -> dict[str, Any]:
-    """The synthetic scan that is shown."""
     return {"side_lambda0": SIDE, "pixels": PIXELS, "skewness": skewness, "seed": SEEDS[0]}
 
 
 def tuned_inputs(tuned: Tuned) -> dict[str, Any]:
-    """Compound A as tuned to a reading."""
     return {
         "compound": "A, tuned",
         "reading": tuned.implied.reading,

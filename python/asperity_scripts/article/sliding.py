@@ -255,7 +255,6 @@ def _parameters(inputs: Inputs) -> list[_Row]:
 
 
 def _listed(what: str, values: Array, symbol: str, unit: str, source: str) -> list[_Row]:
-    """A row a velocity of Table 1's."""
     at = zip(_LISTED, _at(values, _LISTED).tolist(), strict=True)
     return [(what.format(f"{v:g} m/s"), symbol, value, unit, source) for v, value in at]
 

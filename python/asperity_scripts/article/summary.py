@@ -25,7 +25,6 @@ _TOPICS = {
 
 
 def counted(statements: Rows) -> str:
-    """How many statements have each verdict, in one line."""
     verdicts = [row["verdict"] for row in statements]
     parts = [f"{verdicts.count(verdict)} {verdict}" for verdict in VERDICTS]
     return f"{len(verdicts)} statements: {', '.join(parts[:-1])}; {parts[-1]}, set apart"

@@ -51,14 +51,12 @@ def slope_fit(measured: TabulatedSpectrum) -> SelfAffineFit:
 
 
 def printed_eq12(surface: SelfAffineSpectrum) -> SelfAffineSpectrum:
-    """Eq. 12 as printed, with the parameters of a surface."""
     return SelfAffineSpectrum.from_article(
         h0=surface.rms_height, hurst=surface.hurst, q0=surface.q0, q1=surface.q1
     )
 
 
 def findings(inputs: Inputs) -> Findings:
-    """Eq. 12, and Section 5.2 on scans of the asphalt."""
     h0, own = inputs.asphalt.rms_height, (inputs.sandpaper, inputs.asphalt)
     printed = printed_eq12(inputs.asphalt).rms_height
     level = np.mean([printed_variance(scan) for scan in inputs.asphalt_scans])

@@ -33,7 +33,6 @@ _FILES = ("summary.md", "errors.csv", _AREA, _ENERGY, _SHIFT)
 
 
 def validate(args: Namespace) -> None:
-    """Errors of area and elastic energy: tables, pictures, and the summary on the terminal."""
     refuse_alone(args)
     if args.sliding:
         surface, facts, unusual = _own_map(args) if args.surface else (None, _no_map(args), [])
@@ -80,7 +79,6 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[Note
 
 
 def _options_of_map(args: Namespace) -> dict[str, Any]:
-    """Options that say something of a map of one's own."""
     names = ("pixel_size", "unit", "channel", "detrend", "q0", "loads", "periodic")
     values = {name: getattr(args, name) for name in names}
     return {
@@ -89,7 +87,6 @@ def _options_of_map(args: Namespace) -> dict[str, Any]:
 
 
 def _no_map(args: Namespace) -> dict[str, Any]:
-    """Refuse options of a map where there is none."""
     if options := _options_of_map(args):
         option = next(iter(options)).replace("_", "-")
         raise InvalidInput(Argument(f"--{option}"), ": only goes with --surface")

@@ -51,7 +51,6 @@ class Comparison:
     notes: list[Note]
 
     def columns(self) -> dict[str, list[float]]:
-        """Columns of a table, a row a pressure and velocity."""
         p, v = np.meshgrid(self.pressure, self.velocity, indexing="ij")
         named = {"pressure_pa": p, "velocity_m_s": v, "hysteresis_exact": self.hysteresis}
         named |= {"work_of_slopes": self.work_of_slopes, "contact_area_exact": self.area}

@@ -89,7 +89,6 @@ def _different(
 
 
 def shown(model: str) -> str:
-    """A model's name with its Greek letter."""
     return model.replace("lambda0", "$\\lambda_0$")
 
 

@@ -39,7 +39,6 @@ def own_map() -> HeightMap:
 
 
 def validate_sliding(args: Namespace, surface: HeightMap | None, facts: dict[str, object]) -> None:
-    """Tables, a picture, and the summary on the terminal."""
     directory = FilePath(args.output)
     check_plot(directory / FILES[2])
     check_directory(directory, FILES, force=args.force)

@@ -9,7 +9,6 @@ TITLE = "# What each correction is worth"
 
 
 def error_rows(predictions: Sequence[Sequence[Prediction]]) -> dict[str, list[Any]]:
-    """Columns of a table, a row a model and contact."""
     flat = [prediction for group in predictions for prediction in group]
     return {
         "case": [p.contact.case for p in flat],
@@ -28,7 +27,6 @@ def error_rows(predictions: Sequence[Sequence[Prediction]]) -> dict[str, list[An
 
 
 def summary(predictions: Sequence[Sequence[Prediction]]) -> str:
-    """Markdown: for area and energy the mean and the worst error of every model."""
     contacts = [prediction.contact for prediction in predictions[0]]
     loads = sorted(contact.load for contact in contacts)
     text = [
