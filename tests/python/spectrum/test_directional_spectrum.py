@@ -101,3 +101,13 @@ def test_a_line_has_no_directions():
     line = LineScan(np.sin(np.arange(64.0)), spacing=1e-6)
     with pytest.raises(InvalidInput, match="directional"):
         power_spectrum(line, directional=True)
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [("pixel_size", 1e-6), ("overlap", 0.5), ("max_dropouts", 0.2), ("executor", "threads")],
+)
+def test_directions_take_no_option_of_tiles(option, value):
+    scan = HeightMap(np.random.default_rng(1).normal(size=(32, 32)), pixel_size=PIXEL)
+    with pytest.raises(InvalidInput, match=option):
+        power_spectrum(scan, directional=True, **{option: value})
