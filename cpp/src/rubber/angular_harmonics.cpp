@@ -21,6 +21,9 @@ namespace {
 constexpr std::size_t order = AngularPolynomials::order;
 constexpr std::size_t together = AngularPolynomials::together;
 
+/// Frequencies of the same exponent and first six binary digits.
+std::uint64_t bucket(double w) { return std::bit_cast<std::uint64_t>(w) >> 46; }
+
 constexpr std::size_t in_blocks(std::size_t columns) { return (columns + lanes - 1) / lanes * lanes; }
 
 #define ASPERITY_LOOPS "rubber/harmonic_loops.inc"
@@ -87,19 +90,18 @@ std::size_t harmonics_in(std::span<const double> w, std::span<const double> loss
 }
 
 HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail, std::size_t count)
-    : count_(count), outside_(in_blocks(2 * (count + 1))), width_(outside_ + lanes) {
+    : count_(count), width_(in_blocks(2 * (count + 1))), lowest_(tail.high) {
   const AngularSums& sums = table.sums();
   const std::span<const double> edges = sums.edges();
   const ChebyshevZeros<order>& zeros = AngularPolynomials::zeros();
-  const double lowest = tail.high;
-  const std::complex<double> e = tail(lowest);
+  const std::complex<double> e = tail(lowest_);
   Chain odd{std::vector<double>(count), 2}, even{std::vector<double>(count), 1};
   if (count > 0) {  // of E' constant and E'' proportional to w
     odd.before[0] = std::numbers::pi * e.imag() / 4;
     even.before[0] = std::numbers::pi * (e.real() * e.real() + e.imag() * e.imag() / 4);
   }
   if (count > 1) even.before[1] = std::numbers::pi * e.imag() * e.imag() / 12;
-  const auto start = std::ranges::lower_bound(edges, lowest * (1 - 1e-15)) - edges.begin();
+  const auto start = std::ranges::lower_bound(edges, lowest_ * (1 - 1e-15)) - edges.begin();
   for (auto p = static_cast<std::size_t>(start); p + 1 < edges.size(); ++p) {
     const double length = edges[p + 1] - edges[p];
     const bool root = sums.at_branch(p);
@@ -121,19 +123,26 @@ HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail
         first[static_cast<Eigen::Index>(i)] = i1[i];
         second[static_cast<Eigen::Index>(i)] = i2[i];
       }
-      cells_.push_back({w_at(from), c + 1 == cuts ? edges[p + 1] : w_at(from + 2 * half), from, 1 / half, edges[p],
-                        1 / length, root, has_outside});
+      cells_.push_back(
+          {edges[p], 1 / length, (root ? 1 : 0) / half, (root ? 0 : 1) / half, -1 - from / half, has_outside});
       const std::size_t place = coefficient_.size();
       coefficient_.resize(place + order * width_);
-      const auto keep = [&](std::size_t column, const Values& f) {
+      outside_.resize(cells_.size() * order * lanes);
+      const auto powers = [&](const Values& f) {
         std::array<double, order> value;
         std::ranges::copy(f, value.begin());
-        const std::array<double, order> power = powers_of(zeros.series(value));
+        return powers_of(zeros.series(value));
+      };
+      const auto keep = [&](std::size_t column, const Values& f) {
+        const std::array<double, order> power = powers(f);
         for (std::size_t i = 0; i < order; ++i) coefficient_[place + i * width_ + column] = power[i];
       };
       keep(0, first);
       keep(1, second);
-      keep(outside_, Eigen::Map<const Values>(outside));
+      const std::array<double, order> beyond = powers(Eigen::Map<const Values>(outside));
+      for (std::size_t i = 0; i < order; ++i) outside_[(cells_.size() - 1) * order * lanes + i * lanes] = beyond[i];
+      high_.push_back(c + 1 == cuts ? edges[p + 1] : w_at(from + 2 * half));
+      first_.resize(bucket(high_.back()) - bucket(lowest_) + 1, static_cast<std::uint32_t>(cells_.size() - 1));
       odd.step(first, rise, [&](std::size_t k, const Values& f) { keep(2 * k + 2, f); });
       even.step(second, rise, [&](std::size_t k, const Values& f) { keep(2 * k + 3, f); });
     }
@@ -145,8 +154,7 @@ bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
   static const auto loop = vector_unit() == VectorUnit::baseline ? baseline::polynomials_at : avx2::polynomials_at;
   const std::size_t n = w.size(), columns = in_blocks(2 * (count + 1));
   const double *of[together], *outside[together];
-  const Cell* cell[together];
-  double share[together], u[together], beyond[lanes * together];
+  double u[together], beyond[lanes * together];
   constexpr std::size_t few = 2 * lanes;  // for which there is room without asking for it
   double few_values[few * together];
   double* few_addresses[few];
@@ -154,23 +162,22 @@ bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
   std::vector<double*> many_addresses(columns > few ? columns : 0);
   double* const value = columns > few ? many_values.data() : few_values;
   double** const to = columns > few ? many_addresses.data() : few_addresses;
-  std::size_t c = 0;
+  const std::uint64_t lowest = bucket(lowest_);
   bool any_outside = false;
   for (std::size_t from = 0; from < n; from += together) {
     const std::size_t here = std::min(together, n - from);
     bool has_outside = false;
     for (std::size_t i = 0; i < together; ++i) {
-      const double at = std::clamp(w[from + (i < here ? i : 0)], cells_.front().low, cells_.back().high);
-      for (std::size_t step = 0; step < AngularTable::near && at > cells_[c].high; ++step) ++c;
-      if (!(at >= cells_[c].low && at <= cells_[c].high)) c = cell_of(at);
-      cell[i] = &cells_[c];
-      share[i] = std::max(0.0, (at - cell[i]->panel_low) * cell[i]->inverse_length);
+      const double at = std::clamp(w[from + (i < here ? i : 0)], lowest_, high_.back());
+      std::size_t c = first_[bucket(at) - lowest];
+      while (at > high_[c]) ++c;
+      const Cell& cell = cells_[c];
+      const double share = std::max(0.0, (at - cell.panel_low) * cell.inverse_length);
+      u[i] = std::sqrt(share) * cell.by_root + share * cell.by_share + cell.shift;
       of[i] = &coefficient_[c * order * width_];
-      has_outside |= cell[i]->has_outside;
+      outside[i] = &outside_[c * order * lanes];
+      has_outside |= cell.has_outside;
     }
-    for (std::size_t i = 0; i < together; ++i) u[i] = std::sqrt(share[i]);
-    for (std::size_t i = 0; i < together; ++i)
-      u[i] = ((cell[i]->root ? u[i] : share[i]) - cell[i]->from) * cell[i]->inverse_step - 1;
     const auto row = [&](std::size_t k, double* first, double* rows) { return (k == 0 ? first : rows + (k - 1) * n); };
     for (std::size_t k = 0; k < columns; ++k) to[k] = &value[k * together];
     for (std::size_t k = 0; here == together && k <= count; ++k) {
@@ -188,17 +195,11 @@ bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
     if (has_outside) {
       double* only[lanes];
       for (std::size_t k = 0; k < lanes; ++k) only[k] = beyond + k * together;
-      for (std::size_t i = 0; i < together; ++i) outside[i] = of[i] + outside_;
-      loop(outside, u, width_, 1, only);
+      loop(outside, u, lanes, 1, only);
     }
     for (std::size_t i = 0; i < here; ++i) i1_outside[from + i] = std::clamp(beyond[i], 0.0, i1[from + i]);
   }
   return any_outside;
-}
-
-std::size_t HarmonicTable::cell_of(double w) const {
-  const auto above = std::ranges::upper_bound(cells_, w, {}, &Cell::low) - cells_.begin();
-  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(above, 1)) - 1;
 }
 
 const HarmonicTable& HarmonicTables::of(const AngularTable& table, const ModulusPiece& tail, std::size_t count) const {

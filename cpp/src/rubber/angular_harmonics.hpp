@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <span>
@@ -30,17 +31,19 @@ class HarmonicTable {
 
  private:
   struct Cell {
-    double low, high;  // [rad/s]
-    // a polynomial's variable is (t - from) / step - 1 with t the share of the panel or its root
-    double from, inverse_step, panel_low, inverse_length;
-    bool root, has_outside;
+    // a polynomial's variable is linear in the share of the panel or in its root
+    double panel_low, inverse_length, by_root, by_share, shift;
+    bool has_outside;
   };
-  [[nodiscard]] std::size_t cell_of(double w) const;
 
   static constexpr std::size_t order = AngularPolynomials::order;
-  std::size_t count_, outside_, width_;  // of harmonics; where a row of coefficients has the part outside, and its end
+  std::size_t count_, width_;  // of harmonics, and of a row of coefficients
+  double lowest_;              // [rad/s]
   std::vector<Cell> cells_;
-  std::vector<double> coefficient_;  // of each cell `order` rows with those of I1, I2, L_1, K_1 and so on
+  std::vector<double> high_;          // of the cells
+  std::vector<std::uint32_t> first_;  // cell that reaches into each bucket of frequencies
+  std::vector<double> coefficient_;   // of each cell `order` rows with those of I1, I2, L_1, K_1 and so on
+  std::vector<double> outside_;       // and as many with that of the part outside, which few cells have
 };
 
 /// Tables made when first asked for, each of twice as many harmonics as the one before.
