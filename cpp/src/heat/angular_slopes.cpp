@@ -101,8 +101,8 @@ void AngularSlopes::solve(std::span<const double> w, bool sloped, AngularColumns
   result.across.assign(rings_.count > 0 ? n : 0, 0.0);
   if (!blocks_.empty()) add_rings(w, sloped, result);
   if (factors_.empty()) return;
-  if (sloped) soften(factors_, loss_slope_, result.slope1, result.slope2, {});
-  soften(factors_, of_loss_, result.i1, result.i2, {});
+  if (sloped) soften(factors_, loss_slope_, result.slope1, result.slope2);
+  soften(factors_, of_loss_, result.i1, result.i2);
   for (std::size_t i = 0; i < result.across.size(); ++i) result.across[i] *= factors_[i].loss;
 }
 

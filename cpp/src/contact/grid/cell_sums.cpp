@@ -9,33 +9,22 @@ namespace asperity {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-namespace {
-
-/// Calls `visit` with the first node of each cell, their number, and where the cell ends: by q, on pieces by the
-/// roughness up to there, which all levels have alike.
-void for_each_cell(const ContactGrid& grid, auto&& visit) {
-  double place = 0;
-  for (const ContactGrid::Cell& cell : grid.cells()) {
-    const auto first = static_cast<Index>(cell.first), count = static_cast<Index>(cell.count);
-    // from the foot on, as ends are beside each other at a front
-    place = cell.rule ? cell.end - grid.foot() : place + grid.weight().segment(first, count).sum();
-    visit(first, count, place);
-  }
-  const ContactGrid::Beyond& edges = grid.beyond();
-  auto first = static_cast<Index>(edges.first);
-  for (std::size_t i = 0; i < edges.panel_nodes.size(); ++i) {
-    const auto count = static_cast<Index>(edges.panel_nodes[i]);
-    visit(first, count, place + (edges.ends[i + 1] - edges.ends[0]));
-    first += count;
-  }
-}
-
-}  // namespace
-
 void sum_cells(const ContactGrid& grid, const VectorXd& part, VectorXd& sums) {
-  sums.resize(std::ssize(grid.cells()) + std::ssize(grid.beyond().panel_nodes));
+  const ContactGrid::Beyond& edges = grid.beyond();
+  sums.resize(std::ssize(grid.cells()) + std::ssize(edges.panel_nodes));
+  const double* next = part.data();
   Index at = 0;
-  for_each_cell(grid, [&](Index first, Index count, double) { sums[at++] = part.segment(first, count).sum(); });
+  const auto add = [&](std::size_t count) {
+    double sum = 0;
+    for (const double* const end = next + count; next < end; ++next) sum += *next;
+    sums[at++] = sum;
+  };
+  if (grid.pieces())
+    for (; at < std::ssize(grid.cells()); ++at) sums[at] = next[2 * at] + next[2 * at + 1];
+  else
+    for (const ContactGrid::Cell& cell : grid.cells()) add(cell.count);
+  next = part.data() + edges.first;
+  for (const std::size_t count : edges.panel_nodes) add(count);
 }
 
 std::vector<PanelSum> sums_of_panels(const ContactGrid& grid, const VectorXd& part) {
@@ -50,21 +39,40 @@ std::vector<PanelSum> sums_of_panels(const ContactGrid& grid, const VectorXd& pa
   return result;
 }
 
+namespace {
+
+/// Of each cell how many nodes it has, and where it ends: by q from the foot on, as ends are beside each other at a
+/// front; on pieces by the roughness up to there, which all levels have alike.
+std::vector<std::pair<Index, double>> ends_of(const ContactGrid& grid) {
+  std::vector<std::pair<Index, double>> result;
+  double place = 0;
+  for (const ContactGrid::Cell& cell : grid.cells()) {
+    const auto first = static_cast<Index>(cell.first), count = static_cast<Index>(cell.count);
+    place = cell.rule ? cell.end - grid.foot() : place + grid.weight().segment(first, count).sum();
+    result.emplace_back(count, place);
+  }
+  const ContactGrid::Beyond& edges = grid.beyond();
+  for (std::size_t i = 0; i < edges.panel_nodes.size(); ++i)
+    result.emplace_back(static_cast<Index>(edges.panel_nodes[i]), place + (edges.ends[i + 1] - edges.ends[0]));
+  return result;
+}
+
+}  // namespace
+
 CommonEnds common_ends(const ContactGrid& coarse, const ContactGrid& fine, Index between) {
   constexpr double same = 1e-9;
-  std::vector<double> of_fine;
-  for_each_cell(fine, [&](Index, Index, double end) { of_fine.push_back(end); });
+  const auto of_fine = ends_of(fine);
   CommonEnds ends;
   Index cells = 0, nodes = 0;
   auto at = of_fine.begin();
-  for_each_cell(coarse, [&](Index, Index count, double end) {
+  for (const auto& [count, end] : ends_of(coarse)) {
     ++cells;
     nodes += count;
-    while (at != of_fine.end() && *at < end * (1 - same)) ++at;
-    if (nodes < between || at == of_fine.end() || *at > end * (1 + same)) return;
+    while (at != of_fine.end() && at->second < end * (1 - same)) ++at;
+    if (nodes < between || at == of_fine.end() || at->second > end * (1 + same)) continue;
     nodes = 0;
     ends.push_back({cells, at - of_fine.begin() + 1});
-  });
+  }
   return ends;
 }
 

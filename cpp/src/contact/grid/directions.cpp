@@ -15,40 +15,32 @@ namespace asperity {
 namespace {
 
 using Row = Eigen::Map<const Eigen::ArrayXd>;
-using Sums = Eigen::Map<Eigen::ArrayXd>;
 
-/// sums += `scale` a_m `by`, a_m of each wave or of all.
+/// sum += `scale` a_m `by`, a_m of each wave or of all.
 template <class By>
 void add(const std::vector<double>& harmonics, const Rings& rings, std::size_t m, double scale, const By& by,
-         Sums& sums) {
+         std::span<double> sum) {
+  const auto n = static_cast<Eigen::Index>(sum.size());
+  Eigen::Map<Eigen::ArrayXd> sums(sum.data(), n);
   const double* const a = harmonics.data() + m * rings.waves;
   if (rings.waves == 1)
     sums += (scale * *a) * by;
   else
-    sums += scale * Row(a, sums.size()) * by;
+    sums += scale * Row(a, n) * by;
 }
 
 }  // namespace
 
-void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i1, std::span<double> across) {
-  const auto n = static_cast<Eigen::Index>(i1.size());
-  Sums along(i1.data(), n), beside(across.data(), across.empty() ? 0 : n);
-  const auto row = [&](std::size_t m) { return Row(rows.loss.data() + (m - 1) * rows.stride, n); };
-  // from I1, the row before the first, on
-  if (rows.count == 0) return;
-  if (!across.empty()) add(rings.across, rings, 0, 1, along - row(1), beside);
-  add(rings.along, rings, 0, 1, along + row(1), along);
-  for (std::size_t m = 1; m < rows.count; ++m) {
-    add(rings.along, rings, m, 1, row(m) + row(m + 1), along);
-    if (!across.empty()) add(rings.across, rings, m, 1, row(m) - row(m + 1), beside);
+void add_directions(const Rings& rings, const HarmonicRows& rows, const std::vector<double>& square,
+                    const RingIntegrals& to) {
+  const auto n = static_cast<Eigen::Index>(to.i2.size());
+  for (std::size_t m = 0; m < rows.count; ++m) {
+    add(rings.along, rings, m, 2, Row(&square[(m + 1) * rows.stride], n), to.i2);
+    if (to.i1.empty()) continue;
+    const Row before(&rows.loss[m * rows.stride], n), here(&rows.loss[(m + 1) * rows.stride], n);
+    add(rings.along, rings, m, 1, before + here, to.i1);
+    if (!to.across.empty()) add(rings.across, rings, m, 1, before - here, to.across);
   }
-}
-
-void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i2) {
-  const auto n = static_cast<Eigen::Index>(i2.size());
-  Sums sums(i2.data(), n);
-  for (std::size_t m = 0; m < rows.count; ++m)
-    add(rings.along, rings, m, 2, Row(rows.square.data() + m * rows.stride, n), sums);
 }
 
 const TabulatedSpectrum* harmonics_of(const Spectrum& spectrum) {
@@ -93,7 +85,7 @@ Rings Directions::at_nodes(const ContactGrid& grid) const {
   const RoughnessPieces* const pieces = grid.pieces();
   for (std::size_t i = 0; i < grid.band_size(); ++i)
     if (pieces)
-      turn(&pieces->nodes().cosine[i * count()], &pieces->nodes().sine[i * count()], result, i);
+      turn(&pieces->nodes().line.cosine[i * count()], &pieces->nodes().line.sine[i * count()], result, i);
     else
       turn(HarmonicsAt(table_, grid.wavenumber()[i]), result, i);
   const auto& [cosine, sine] = grid.macro_harmonics();
@@ -105,6 +97,18 @@ Rings Directions::at_nodes(const ContactGrid& grid) const {
     }
   for (std::size_t i = macro; i < grid.size(); ++i)
     turn(&cosine[(i - macro) * count()], &sine[(i - macro) * count()], result, i);
+  return result;
+}
+
+Rings Directions::rests(const ContactGrid& grid) const {
+  Rings result(count(), grid.size());
+  const auto& [cosine, sine] = grid.pieces()->nodes().rest;
+  for (std::size_t i = 0; i < cosine.size() / count(); ++i) {
+    turn(&cosine[i * count()], &sine[i * count()], result, i);
+    const double dm = grid.weight().segment<2>(static_cast<Eigen::Index>(i / 2 * 2)).sum();
+    for (std::size_t m = 0; m < count(); ++m)
+      for (auto* const row : {&result.along, &result.across}) (*row)[m * result.waves + i] *= dm * dm;
+  }
   return result;
 }
 

@@ -31,16 +31,28 @@ struct Rings {
   }
 };
 
-/// L_m and K_m of a rubber at frequencies, in rows of m from 1 on, each `stride` after the one before.
+/// Of a rubber at frequencies, in rows of m from 0 on: I1, L_1 and so on, I2, K_1 and so on, and what E'' has of these
+/// where it is asked for. Each row is `stride` after the one before.
 struct HarmonicRows {
-  std::size_t count = 0, stride = 0;
-  std::span<const double> loss, square;
+  std::size_t count = 0, stride = 0;  // the last m
+  std::vector<double> loss, square, of_loss;
+  void resize(std::size_t harmonics, std::size_t row, bool parted) {
+    count = harmonics;
+    stride = row;
+    for (auto* const rows : {&loss, &square}) rows->resize((count + 1) * stride);
+    of_loss.resize(parted ? loss.size() : 0);
+  }
 };
 
-/// I1 + sum a_m (L_m-1 + L_m), sum b_m (L_m-1 - L_m), the force across, and I2 + 2 sum a_m K_m take the places of I1,
-/// of nothing and of I2. The rings of one wave are those of all.
-void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i1, std::span<double> across);
-void add_directions(const Rings& rings, const HarmonicRows& rows, std::span<double> i2);
+/// Room for I1 and the force across, or none, and for I2.
+struct RingIntegrals {
+  std::span<double> i1 = {}, i2 = {}, across = {};
+};
+
+/// Adds sum a_m (L_m-1 + L_m) to I1, sum b_m (L_m-1 - L_m) to the force across, and 2 sum a_m K_m to I2, or with rows
+/// of what E'' has of it to that. The rings of one wave are those of all.
+void add_directions(const Rings& rings, const HarmonicRows& rows, const std::vector<double>& square,
+                    const RingIntegrals& to);
 
 /// A spectrum whose rings are slid over in one direction.
 class Directions {
@@ -55,6 +67,8 @@ class Directions {
   [[nodiscard]] const Rings& mean() const { return mean_; }
   /// Of all nodes of a grid.
   [[nodiscard]] Rings at_nodes(const ContactGrid& grid) const;
+  /// RoughnessPieces::Nodes::rest of the nodes of pieces, times the square of a piece's roughness.
+  [[nodiscard]] Rings rests(const ContactGrid& grid) const;
 
   /// How many harmonics matter for an error of `least` in I1, I2 or the force across of frequencies in a range [rad/s],
   /// and what the others may have, relative. `parted`: the parts of I2 that E' and E'' have count by themselves.

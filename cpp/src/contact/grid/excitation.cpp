@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <numbers>
 
 #include "contact/grid/grid.hpp"
@@ -116,59 +115,57 @@ std::vector<ModulusFactors> Excitation::factors(const ContactGrid& grid) const {
   return softening_ ? softening_->at_nodes(grid) : std::vector<ModulusFactors>{};
 }
 
-void soften_square(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i2) {
+void soften(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i1,
+            std::span<double> i2) {
   for (std::size_t i = 0; i < factors.size(); ++i) {
     const auto [f, g] = factors[i];
     i2[i] = f * f * i2[i] + (g - f) * (g + f) * loss_part[i];
+    if (!i1.empty()) i1[i] *= g;
   }
 }
 
-void soften(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i1,
-            std::span<double> i2, std::span<double> i1_outside) {
-  for (std::size_t i = 0; i < factors.size(); ++i) {
-    const double g = factors[i].loss;
-    i1[i] *= g;
-    if (!i1_outside.empty()) i1_outside[i] *= g;
-  }
-  soften_square(factors, loss_part, i2);
+void take_rings(const HarmonicRows& rows, std::span<const ModulusFactors> factors, const Rings& rings, bool with_mean,
+                const RingIntegrals& result) {
+  const auto begin = [with_mean](const std::vector<double>& mean, std::span<double> to) {
+    if (with_mean)
+      std::copy_n(mean.begin(), to.size(), to.begin());
+    else
+      std::ranges::fill(to, 0.0);
+  };
+  begin(rows.loss, result.i1);
+  begin(rows.square, result.i2);
+  std::ranges::fill(result.across, 0.0);
+  if (rings.count > 0) add_directions(rings, rows, rows.square, result);
+  if (factors.empty()) return;
+  std::vector<double> of_loss(result.i2.size());
+  begin(rows.of_loss, of_loss);
+  if (rings.count > 0) add_directions(rings, rows, rows.of_loss, {.i2 = of_loss});
+  soften(factors, of_loss, result.i1, result.i2);
+  for (std::size_t i = 0; i < result.across.size(); ++i) result.across[i] *= factors[i].loss;
+}
+
+void Excitation::take(const HarmonicRows& rows, std::span<const ModulusFactors> factors, std::span<double> i1,
+                      std::span<double> i2, std::span<double> i1_outside, const Directed& directed) const {
+  const Rings even;
+  take_rings(rows, factors, directed.rings ? *directed.rings : even, true, {i1, i2, directed.across});
+  for (std::size_t i = 0; i < i1_outside.size(); ++i)  // as if it had the directions of all
+    i1_outside[i] *= rows.loss[i] > 0 ? i1[i] / rows.loss[i] : 1;
+  if (!directed.about.empty()) take_rings(rows, factors, directions_->mean(), true, {{}, directed.about});
+  if (!directed.mean.i1.empty()) take_rings(rows, factors, even, true, directed.mean);
 }
 
 bool Excitation::operator()(std::span<const double> w, std::span<const ModulusFactors> factors, std::span<double> i1,
                             std::span<double> i2, std::span<double> i1_outside, const Directed& directed) const {
-  const std::size_t n = w.size(), rows = directed.rings ? directed.harmonics : 0;
-  const auto harmonics = rows > 0 ? std::make_unique_for_overwrite<double[]>(2 * rows * n) : nullptr;
-  const std::span loss(harmonics.get(), rows * n), square(loss.data() + rows * n, rows * n);
-  const bool any_outside = angular_integrals(rubber_, w, i1, i2, i1_outside, loss, square);
-  std::vector<double> of_loss;
-  if (!factors.empty()) {
-    of_loss.resize((rows + 1) * n);
-    loss_part(rubber_, w, of_loss);
-  }
-  if (!directed.mean_i1.empty()) {
-    std::ranges::copy(i1, directed.mean_i1.begin());
-    std::ranges::copy(i2, directed.mean_i2.begin());
-    soften(factors, of_loss, directed.mean_i1, directed.mean_i2, {});
-  }
-  if (!directed.about.empty()) {
-    std::ranges::copy(i2, directed.about.begin());
-    add_directions(directions_->mean(), {rows, n, {}, square}, directed.about);
-    std::vector<double> about_loss(of_loss.begin(), of_loss.begin() + static_cast<std::ptrdiff_t>(factors.size()));
-    add_directions(directions_->mean(), {factors.empty() ? 0 : rows, n, {}, std::span(of_loss).subspan(factors.size())},
-                   about_loss);
-    soften_square(factors, about_loss, directed.about);
-  }
-  if (rows > 0) {
-    const bool outside = any_outside && !i1_outside.empty();
-    for (std::size_t i = 0; outside && i < n; ++i) i1_outside[i] /= i1[i] > 0 ? i1[i] : 1;
-    add_directions(*directed.rings, {rows, n, loss, square}, i1, directed.across);
-    add_directions(*directed.rings, {rows, n, loss, square}, i2);
-    if (!factors.empty())
-      add_directions(*directed.rings, {rows, n, {}, std::span(of_loss).subspan(n)}, std::span(of_loss).first(n));
-    for (std::size_t i = 0; outside && i < n; ++i) i1_outside[i] *= i1[i];  // as if it had the directions of all
-  }
-  if (factors.empty()) return any_outside;
-  soften(factors, std::span(of_loss).first(n), i1, i2, any_outside ? i1_outside : std::span<double>());
-  for (std::size_t i = 0; rows > 0 && i < directed.across.size(); ++i) directed.across[i] *= factors[i].loss;
+  if (!directed.rings && factors.empty()) return angular_integrals(rubber_, w, i1, i2, i1_outside);
+  const std::size_t n = w.size();
+  HarmonicRows own;
+  HarmonicRows& rows = directed.rows ? *directed.rows : own;
+  rows.resize(directed.rings ? directed.harmonics : 0, n, !factors.empty());
+  const std::span loss(rows.loss), square(rows.square);
+  const bool any_outside =
+      angular_integrals(rubber_, w, loss.first(n), square.first(n), i1_outside, loss.subspan(n), square.subspan(n));
+  if (!factors.empty()) loss_part(rubber_, w, rows.of_loss);
+  take(rows, factors, i1, i2, any_outside ? i1_outside : std::span<double>(), directed);
   return any_outside;
 }
 
@@ -179,7 +176,8 @@ bool Excitation::of_waves(std::span<const double> w, std::span<const double> wav
   if (softening_)
     for (const double q : wavenumber) factors.push_back((*softening_)(q));
   if (harmonics == 0) return (*this)(w, factors, i1, i2, i1_outside);
-  return (*this)(w, factors, i1, i2, i1_outside, {&directions_->mean(), harmonics, across});
+  return (*this)(w, factors, i1, i2, i1_outside,
+                 {.rings = &directions_->mean(), .harmonics = harmonics, .across = across});
 }
 
 AngularIntegrals Excitation::operator()(double w, double wavenumber, Waves waves) const {
@@ -188,7 +186,8 @@ AngularIntegrals Excitation::operator()(double w, double wavenumber, Waves waves
     std::vector<ModulusFactors> factors;
     if (softening_) factors.push_back((*softening_)(wavenumber));
     AngularIntegrals at{};
-    (void)(*this)({&w, 1}, factors, {&at.i1, 1}, {&at.i2, 1}, {&at.i1_outside, 1}, {&rings, rings.count, {}});
+    (void)(*this)({&w, 1}, factors, {&at.i1, 1}, {&at.i2, 1}, {&at.i1_outside, 1},
+                  {.rings = &rings, .harmonics = rings.count});
     return at;
   }
   AngularIntegrals at = angular_integrals(rubber_, w);

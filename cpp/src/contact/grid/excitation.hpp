@@ -45,12 +45,15 @@ class Softening {
 /// beyond its end, which have the directions of all roughness.
 enum class Waves { of_roughness, of_edges };
 
-/// What rings ask for beside I1 and I2: their harmonics, how many of them, and room for the force across, for what
-/// I1 and I2 would be in the mean over directions, and for I2 of the directions of all roughness, or none.
+/// What rings ask for beside I1 and I2: their harmonics, how many of them, room for the rows that they are made of, for
+/// the force across, for I2 of the directions of all roughness, and for what I1 and I2 would be in the mean over
+/// directions, or none.
 struct Directed {
   const Rings* rings = nullptr;
   std::size_t harmonics = 0;
-  std::span<double> across = {}, mean_i1 = {}, mean_i2 = {}, about = {};
+  HarmonicRows* rows = nullptr;
+  std::span<double> across = {}, about = {};
+  RingIntegrals mean = {};
 };
 
 /// I1 and I2 at frequencies, as waves feel them: of the rubber, bit by bit; with directions their sums over the ring
@@ -85,6 +88,9 @@ class Excitation {
   /// At frequencies [rad/s], with the factors of as many waves or none. As `angular_integrals` otherwise.
   bool operator()(std::span<const double> w, std::span<const ModulusFactors> factors, std::span<double> i1,
                   std::span<double> i2, std::span<double> i1_outside, const Directed& directed = {}) const;
+  /// The same from the integrals of the rubber.
+  void take(const HarmonicRows& rows, std::span<const ModulusFactors> factors, std::span<double> i1,
+            std::span<double> i2, std::span<double> i1_outside, const Directed& directed) const;
   /// With the factors of as many wavenumbers; of edges by `harmonics`.
   bool of_waves(std::span<const double> w, std::span<const double> wavenumber, std::span<double> i1,
                 std::span<double> i2, std::span<double> i1_outside, std::size_t harmonics = 0,
@@ -97,10 +103,12 @@ class Excitation {
   std::optional<Directions> directions_;
 };
 
-/// I2 of the small strain becomes that with factors; `loss_part` is I2''.
-void soften_square(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i2);
-/// The same of I1 and I2; `i1_outside` may be empty.
+/// I1, I2 and the force across of rings, as they are or what they add to the mean over directions alone.
+void take_rings(const HarmonicRows& rows, std::span<const ModulusFactors> factors, const Rings& rings, bool with_mean,
+                const RingIntegrals& result);
+
+/// I1 and I2 of the small strain become those with factors; `loss_part` is I2''. `i1` may be empty.
 void soften(std::span<const ModulusFactors> factors, std::span<const double> loss_part, std::span<double> i1,
-            std::span<double> i2, std::span<double> i1_outside);
+            std::span<double> i2);
 
 }  // namespace asperity

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <mutex>
@@ -98,8 +99,8 @@ RoughnessPieces::RoughnessPieces(std::span<const Segment> surface, std::size_t l
     for (auto* const row : {&nodes_.weight, &nodes_.window, &nodes_.of_first, &nodes_.of_second}) row->push_back(0);
     for (std::size_t k = 0; directions_ && k < directions_->harmonics().count; ++k) {
       const HarmonicsAt at(*directions_, surface.back().b);
-      nodes_.cosine.push_back(at.cosine(k));
-      nodes_.sine.push_back(at.sine(k));
+      nodes_.line.cosine.push_back(at.cosine(k));
+      nodes_.line.sine.push_back(at.sine(k));
     }
   } while (nodes_.wavenumber.size() % 4 != 0);
   take_differences();
@@ -321,30 +322,24 @@ void RoughnessPieces::add_piece(const Points& p, double upper) {
   const std::size_t count = directions_ ? directions_->harmonics().count : 0;
   std::vector<HarmonicsAt> at_points;
   for (std::size_t k = 0; k < n && count > 0; ++k) at_points.emplace_back(*directions_, foot_ * std::exp(p.y[k]));
-  std::vector<Line> cosine, sine;
-  std::vector<double> row(n), sums(n);
-  double rests = 0, rests_of_sums = rest(of, p.y, p.weight, of_one) / (of.all * of.all);
-  const auto take = [&](std::vector<Line>& to, auto harmonic) {
-    double sum = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      row[k] = harmonic(at_points[k]);
-      const double here = p.weight[k] / of.all * row[k];
-      sums[k] = sum + here / 2;
-      sum += here;
-    }
-    to.push_back(project(row));
-    rests += rest(of, p.y, p.weight, row);
-    rests_of_sums += rest(of, p.y, p.weight, sums);
-  };
-  for (std::size_t m = 0; m < count; ++m) {
-    take(cosine, [m](const HarmonicsAt& at) { return at.cosine(m); });
-    take(sine, [m](const HarmonicsAt& at) { return at.sine(m); });
-  }
-  if (count > 0) nodes_.scatter.push_back(std::sqrt(rests * rests_of_sums / static_cast<double>(p.atoms.size())));
+  std::vector<double> row(n);
+  const std::size_t rests_before = nodes_.rest.cosine.size();
   for (const double at : z) {
+    const double m_here = one.at_mean + one.slope * at;
+    const auto take = [&](std::vector<double>& to, std::vector<double>& to_rest, auto harmonic) {
+      for (std::size_t k = 0; k < n; ++k) row[k] = harmonic(at_points[k]);
+      const Line line = project(row);
+      double rest = 0;
+      for (std::size_t k = 0; k < n; ++k) {
+        const double l = (1 + at * (p.y[k] - of.mean) / of.deviation) / (1 + at * at);
+        rest += p.weight[k] * row[k] * l * (of_one[k] - m_here);
+      }
+      to.push_back(line.at_mean + line.slope * at);
+      to_rest.push_back(rest / (of.all * of.all));
+    };
     for (std::size_t m = 0; m < count; ++m) {
-      nodes_.cosine.push_back(cosine[m].at_mean + cosine[m].slope * at);
-      nodes_.sine.push_back(sine[m].at_mean + sine[m].slope * at);
+      take(nodes_.line.cosine, nodes_.rest.cosine, [m](const HarmonicsAt& of_wave) { return of_wave.cosine(m); });
+      take(nodes_.line.sine, nodes_.rest.sine, [m](const HarmonicsAt& of_wave) { return of_wave.sine(m); });
     }
     const double of_c = one.at_mean + one.slope * at, of_c_z = first.at_mean + first.slope * at;
     nodes_.wavenumber.push_back(std::fmin(surface_.back().b, foot_ * std::exp(of.mean + at * of.deviation)));
@@ -353,6 +348,13 @@ void RoughnessPieces::add_piece(const Points& p, double upper) {
     nodes_.of_first.push_back((of_c_z - z[1] * of_c) / (z[0] - z[1]));
     nodes_.of_second.push_back((of_c_z - z[0] * of_c) / (z[1] - z[0]));
   }
+  // what differs between both nodes counts by what stress and modulus change from the one to the other
+  const double apart = (z[1] - z[0]) * of.deviation;
+  double square = 0;
+  for (const std::vector<double>& rest : {std::cref(nodes_.rest.cosine), std::cref(nodes_.rest.sine)})
+    for (std::size_t k = rests_before; k < rests_before + count; ++k)
+      square += std::pow(rest[k] + rest[k + count], 2) + std::pow((rest[k] - rest[k + count]) / 2 * apart, 2);
+  if (count > 0) nodes_.rest_size.push_back(std::sqrt(square));
 }
 
 namespace {

@@ -34,13 +34,17 @@ class RoughnessPieces {
   struct Nodes {
     /// [1/m], two a piece; nodes of no weight at the end of the band, one at least, make up for a multiple of four.
     std::vector<double> wavenumber;
-    std::vector<double> end;           // of the pieces, their upper ends [1/m]
-    std::vector<double> weight;        // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
-    std::vector<double> window;        // of RoughnessWindow
-    std::vector<double> cosine, sine;  // with directions: harmonics of the table, a row a node
-    /// With them, of each piece: int f dm of what scatters in harmonics, f from the sums of all that scatters along the
-    /// piece, over f' and the square of the weight; of rings that scatter by chance, its root mean square.
-    std::vector<double> scatter;
+    std::vector<double> end;     // of the pieces, their upper ends [1/m]
+    std::vector<double> weight;  // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
+    std::vector<double> window;  // of RoughnessWindow
+    /// With directions, a row of harmonics a node: that of the straight lines which stand for harmonics a of the table
+    /// on a piece, and int a l_k (m - m_k) dm over the square of its roughness, m the roughness up to a wave, l_k the
+    /// line that is 1 at the node.
+    struct Harmonics {
+      std::vector<double> cosine, sine;
+    };
+    Harmonics line, rest;
+    std::vector<double> rest_size;            // of each piece
     std::vector<double> of_first, of_second;  // int c l dy from the piece's lower end up to the node, of both lines
     /// Fourth differences of a function in ln q, by its values at the node and at two to each side of it, times the
     /// weight of the nodes that they stand for.

@@ -20,38 +20,14 @@ void LevelSolver::take_harmonics() {
   needed_ = (analytic_waves_ ? *analytic_waves_ : waves_).needed(range, least * model_.rtol);
 }
 
-/// `of_loss` has the part of I2 that E'' has, or nothing.
-void LevelSolver::add_directions_of_pieces(Level& level, std::span<double> of_loss) {
-  const RoughnessCells& cells = level.grid->pieces()->cells();
-  const std::size_t rows = needed_.count, n = level.grid->size(), stride = n + RoughnessCells::excess,
-                    points = frequency_.size();
-  for (auto* const row : {&loss_at_nodes_, &square_at_nodes_}) row->resize(rows * stride);
-  for (std::size_t m = 0; m < rows; ++m)
-    cells.at_nodes(&loss_[m * points], &square_[m * points], &loss_at_nodes_[m * stride],
-                   &square_at_nodes_[m * stride]);
-  const std::span<double> i1{level.i1.data(), n};
-  const bool outside = !level.i1_outside.empty();
-  if (outside)  // as if it had the directions of all
-    for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] /= i1[i];
-  add_directions(level.rings, {rows, stride, loss_at_nodes_, square_at_nodes_}, i1, level.across);
-  const HarmonicRows squares{rows, stride, {}, square_at_nodes_};
-  if (!level.about.empty()) {
-    std::copy_n(level.i2.begin(), n, level.about.begin());
-    add_directions(waves_.directions()->mean(), squares, {level.about.data(), n});
-  }
-  add_directions(level.rings, squares, {level.i2.data(), n});
-  if (outside)
-    for (std::size_t i = 0; i < n; ++i) level.i1_outside[i] *= i1[i];
-  for (std::size_t m = 0; m < rows && !of_loss.empty(); ++m)
-    cells.at_nodes(&of_loss_[(m + 1) * points], &of_loss_[(m + 1) * points], &square_at_nodes_[m * stride],
-                   &square_at_nodes_[m * stride]);
-  if (of_loss.empty()) return;
-  if (!level.about.empty()) {
-    std::vector<double> about_loss(of_loss.begin(), of_loss.begin() + static_cast<std::ptrdiff_t>(n));
-    add_directions(waves_.directions()->mean(), squares, about_loss);
-    soften_square(level.factors, about_loss, level.about);
-  }
-  add_directions(level.rings, squares, of_loss.first(n));
+Directed LevelSolver::directed(Level& level) {
+  if (!rings_of_) return {};
+  const auto room = [n = level.grid->size()](std::vector<double>& row) {
+    return std::span(row).first(std::min(n, row.size()));
+  };
+  Directed result{&level.rings, needed_.count, &level.rows, room(level.across), room(level.about)};
+  result.mean = {level.mean_i1, level.mean_i2};
+  return result;
 }
 
 void LevelSolver::check_directions(const Level& level) const {
@@ -66,30 +42,14 @@ void LevelSolver::check_directions(const Level& level) const {
                          "fewer of them, or wider rings");
 }
 
-/// What harmonics that scatter from ring to ring miss of friction, relative: stress follows G, whose rings scatter too.
-/// From piece to piece it has any sign, and on two levels alike it is.
-double LevelSolver::scatter(const Level& level, const ContactSums& sums) const {
-  if (!(sums.friction > 0)) return 0;
-  const std::vector<double>& of_pieces = level.grid->pieces()->nodes().scatter;
-  const double *const weight = level.grid->weight().data(), *const g = level.theory->node_g().data(),
-                      *const i2 = level.i2.data(), *const i1 = level.mean_i1.data(),
-                      *const loss = level.per_loss.data();
-  double squares = 0;
-  for (std::size_t c = 0; c < of_pieces.size(); ++c) {
-    const std::size_t i = 2 * c, k = i + 1;
-    const double rise = (weight[i] * i2[i] + weight[k] * i2[k]) / std::max(g[k], 1e-300),
-                 off = (loss[i] * i1[i] + loss[k] * i1[k]) * rise * of_pieces[c];
-    squares += off * off;
-  }
-  return std::sqrt(squares) / sums.friction;
-}
-
 double LevelSolver::across(Level& level, const ContactSums& sums) const {
+  level.cell_part = level.theory->cell_part();
   if (!rings_of_ || !(sums.friction > 0)) {
     level.sideways.resize(0);
     level.cell_across.resize(0);
     return 0;
   }
+  using Row = Eigen::Map<const Eigen::ArrayXd>;
   const ContactGrid& grid = *level.grid;
   const bool by_stress = window_ && grid.pieces();
   const auto n = static_cast<Index>(by_stress ? grid.band_size() : grid.size());
@@ -97,12 +57,68 @@ double LevelSolver::across(Level& level, const ContactSums& sums) const {
   if (by_stress)
     level.per_loss = grid.weight().cwiseProduct(level.theory->stress());
   else
-    level.per_loss =
-        level.theory->part().head(n).array() / (scale_ * Eigen::ArrayXd::Map(level.i1.data(), n).max(least));
-  level.sideways = level.per_loss.cwiseProduct(VectorXd::Map(level.across.data(), n));
+    level.per_loss = level.theory->part().head(n).array() / (scale_ * Row(level.i1.data(), n).max(least));
+  level.sideways = level.per_loss.array() * Row(level.across.data(), n);
   sum_cells(grid, level.sideways, level.cell_across);
   const double edges = by_stress ? sums.edges * grid.beyond().end->window * edges_.across : 0;
   return edges + level.cell_across.sum();
+}
+
+/// The sum over the nodes of a piece has of harmonics a straight line each. Beside it, to first order in a and with f =
+/// I1 / I2, int f R dG has I2^2 df/da dR/dG int a l_k (m - m_k) dm at each node, as G rises with what scatters in m;
+/// and as a bows beside the line, which half of the slope over ln q from a node to the other makes up for.
+double LevelSolver::add_rests(Level& level, ContactSums& sums) const {
+  const Index pieces = std::ssize(level.grid->cells());
+  if (level.rests.count == 0) {
+    level.rests = waves_.directions()->rests(*level.grid);
+    const Rings& rings = level.rings;
+    level.uneven.assign(level.grid->size(), 0.0);
+    for (std::size_t m = 0; m < rings.count; ++m)
+      for (std::size_t i = 0; i < rings.waves; ++i)
+        level.uneven[i] +=
+            2 * (std::fabs(rings.along[m * rings.waves + i]) + std::fabs(rings.across[m * rings.waves + i]));
+  }
+  for (auto* const row : {&level.rest_i1, &level.rest_i2, &level.rest_across}) row->resize(level.grid->size());
+  take_rings(level.rows, level.factors, level.rests, false, {level.rest_i1, level.rest_i2, level.rest_across});
+  const VectorXd& slope = level.theory->stress_slopes();
+  const bool parted = level.cell_part.size() > 0;
+  double of_friction = 0, beside = 0, squares = 0, squares_beside = 0;
+  for (Index c = 0; c < pieces; ++c) {
+    const auto i = static_cast<std::size_t>(2 * c), k = i + 1;
+    const double at_i = slope[2 * c], at_k = slope[2 * c + 1];
+    if (at_i == 0 && at_k == 0) continue;
+    // half way from a node to the middle of its piece, `rest` of which is at the nodes
+    const auto sum = [&](const std::vector<double>& of, const std::vector<double>& rest) {
+      const double a = at_i * of[i], b = at_k * of[k];
+      return (0.75 * a + 0.25 * b) * rest[i] + (0.25 * a + 0.75 * b) * rest[k];
+    };
+    const double here = sum(level.i2, level.rest_i1) - sum(level.i1, level.rest_i2),
+                 across = sum(level.i2, level.rest_across) - sum(level.across, level.rest_i2);
+    if (parted) level.cell_part[c] += scale_ * here;
+    level.cell_across[c] += across;
+    of_friction += here;
+    beside += across;
+    const double next = std::fmin(1, std::fmax(level.uneven[i], level.uneven[k]));  // order in harmonics
+    squares += here * here * next * next;
+    squares_beside += across * across * next * next;
+  }
+  sums.friction += of_friction;
+  level.left_out = std::sqrt(std::fmax(squares, squares_beside));
+  return beside;
+}
+
+double LevelSolver::left_out(const Level& level) const {
+  const std::vector<double>& rest = level.grid->pieces()->nodes().rest_size;
+  const double *const weight = level.grid->weight().data(), *const g = level.theory->node_g().data(),
+                      *const i2 = level.i2.data(), *const i1 = level.i1.data(), *const loss = level.per_loss.data();
+  double squares = 0;
+  for (std::size_t c = 0; c < rest.size(); ++c) {
+    const std::size_t i = 2 * c, k = i + 1;
+    const double rise = (weight[i] * i2[i] + weight[k] * i2[k]) / std::max(g[k], 1e-300),
+                 off = (loss[i] * i1[i] + loss[k] * i1[k]) * rise * rest[c];
+    squares += off * off;
+  }
+  return std::sqrt(squares);
 }
 
 }  // namespace asperity

@@ -21,45 +21,46 @@ constexpr double passed_on = 2;  // |d ln R / d ln G| at most, R that of Partial
 /// By polynomials, which takes far fewer values where I1 and I2 are analytic.
 void LevelSolver::take_moduli_of_pieces(Level& level, bool first) {
   const RoughnessPieces& pieces = *level.grid->pieces();
-  const std::size_t n = level.grid->size();
+  const std::size_t n = level.grid->size(), stride = n + RoughnessCells::excess;
+  const bool parted = !level.factors.empty();
   const auto take = [&](const RoughnessCells& cells, const Rubber& rubber, std::span<double> outside,
                         std::size_t harmonics) {
     const std::size_t points = cells.wavenumber().size();
-    for (auto* const row : {&frequency_, &i1_, &i2_}) row->resize(points);
-    for (auto* const row : {&loss_, &square_}) row->resize(harmonics * points);
+    at_points_.resize(harmonics, points, parted);
+    frequency_.resize(points);
     for (std::size_t i = 0; i < points; ++i) frequency_[i] = velocity_ * cells.wavenumber()[i];
-    return angular_integrals(rubber, frequency_, i1_, i2_, outside, loss_, square_);
+    const std::span loss(at_points_.loss), square(at_points_.square);
+    return angular_integrals(rubber, frequency_, loss.first(points), square.first(points), outside,
+                             loss.subspan(points), square.subspan(points));
   };
   if (first && known_in_part_) {
     const RoughnessCells& cells = pieces.coarse_cells();
     outside_at_points_.resize(cells.wavenumber().size());
     level.i1_outside.clear();
     if (take(cells, waves_.rubber(), outside_at_points_, 0)) {
-      level.i1_outside.resize(n + RoughnessCells::excess);
-      cells.at_nodes(outside_at_points_.data(), i1_.data(), level.i1_outside.data(), level.i1.data());
+      level.i1_outside.resize(stride);
+      cells.at_nodes(outside_at_points_.data(), at_points_.loss.data(), level.i1_outside.data(), level.i1.data());
     }
   }
   const RoughnessCells& cells = pieces.cells();  // of the same points at each level
-  if (first) (void)take(cells, *analytic_, {}, needed_.count);
-  cells.at_nodes(i1_.data(), i2_.data(), level.i1.data(), level.i2.data());
-  const std::size_t rows = needed_.count, points = frequency_.size();
-  if (first && !level.factors.empty()) {
-    of_loss_.resize((rows + 1) * points);
-    loss_part(*analytic_, frequency_, of_loss_);
+  if (first) {
+    (void)take(cells, *analytic_, {}, needed_.count);
+    if (parted) loss_part(*analytic_, frequency_, at_points_.of_loss);
   }
-  at_nodes_.resize(level.i2.size());
-  if (!level.factors.empty()) cells.at_nodes(of_loss_.data(), of_loss_.data(), at_nodes_.data(), at_nodes_.data());
-  if (!level.mean_i1.empty()) {
-    std::copy_n(level.i1.begin(), n, level.mean_i1.begin());
-    std::copy_n(level.i2.begin(), n, level.mean_i2.begin());
-    soften(level.factors, at_nodes_, level.mean_i1, level.mean_i2, {});
+  if (!rings_of_ && !parted) {
+    cells.at_nodes(at_points_.loss.data(), at_points_.square.data(), level.i1.data(), level.i2.data());
+    return;
   }
-  if (rows > 0) add_directions_of_pieces(level, level.factors.empty() ? std::span<double>() : at_nodes_);
-  if (rows == 0) level.about.clear();
-  if (level.factors.empty()) return;
-  soften(level.factors, at_nodes_, level.i1, level.i2,
-         first ? std::span<double>(level.i1_outside) : std::span<double>());
-  for (std::size_t i = 0; rows > 0 && i < n; ++i) level.across[i] *= level.factors[i].loss;
+  level.rows.resize(needed_.count, stride, parted);
+  for (std::size_t m = 0; m <= needed_.count; ++m) {
+    const std::size_t from = m * at_points_.stride, to = m * stride;
+    cells.at_nodes(&at_points_.loss[from], &at_points_.square[from], &level.rows.loss[to], &level.rows.square[to]);
+    if (!parted) continue;
+    const double* const of_loss = &at_points_.of_loss[from];
+    cells.at_nodes(of_loss, of_loss, &level.rows.of_loss[to], &level.rows.of_loss[to]);
+  }
+  waves_.take(level.rows, level.factors, {level.i1.data(), n}, {level.i2.data(), n},
+              std::span(level.i1_outside).first(std::min(n, level.i1_outside.size())), directed(level));
 }
 
 /// What the rule of two nodes misses beside knots of a measured modulus, of mu_H or the area, relative: fourth

@@ -24,8 +24,8 @@ constexpr double for_edges = 0.02;  // of the tolerance
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
 constexpr double of_change = 0.75, of_rest = 2;
-constexpr double of_change_with_rings = 1;   // which scatter
-constexpr double of_scatter = 3;             // of its root mean square
+constexpr double of_change_across = 0.25;    // of the force across, whose harmonics have errors of their own:
+constexpr double of_left_out = 2;            // of what pieces leave out of harmonics, about at most
 constexpr double of_change_at_fronts = 1.5;  // beside which levels agree by chance
 /// Two levels may agree by chance, so that of the tolerance something is taken at least: on pieces one point in a
 /// hundred was off by half of it where they did, beside fronts one in 10,000. On panels PartialContact has no fronts,
@@ -90,9 +90,9 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   const ContactGrid& grid = *level.grid;
   const std::size_t n = grid.size();
   for (auto* const row : {&level.i1, &level.i2}) row->resize(n + RoughnessCells::excess);
-  if (rings_of_) level.across.assign(n + RoughnessCells::excess, 0.0);
+  if (rings_of_) level.across.resize(n + RoughnessCells::excess);
   if (rings_of_ && window_) level.about.resize(n + RoughnessCells::excess);
-  if (rings_of_ && grid.pieces())
+  if (rings_of_ && grid.pieces() && kinks())
     for (auto* const row : {&level.mean_i1, &level.mean_i2}) row->resize(n);
   if (grid.pieces() && analytic_) {
     take_moduli_of_pieces(level, first);
@@ -106,8 +106,7 @@ void LevelSolver::take_moduli(Level& level, bool first) {
   const bool asked = analytic_ ? first && known_in_part_ : first || any_outside_;
   if (asked) level.i1_outside.resize(n);
   const Excitation& waves = analytic_waves_ ? *analytic_waves_ : waves_;
-  const Directed directed{&level.rings,  needed_.count, std::span(level.across).first(rings_of_ ? n : 0),
-                          level.mean_i1, level.mean_i2, std::span(level.about).first(level.about.empty() ? 0 : n)};
+  const Directed directed = this->directed(level);
   const bool any = asked && waves_(level.frequency, level.factors, i1, i2, level.i1_outside, directed);
   if (first) any_outside_ = any;
   if (!any) level.i1_outside.clear();
@@ -230,7 +229,7 @@ void LevelSolver::solve(double pressure, double velocity, double shift, double o
 double LevelSolver::change_between(const Level& coarse, const ContactSums& before, const Level& fine,
                                    const ContactSums& now) const {
   const double whole = now.friction * scale_,
-               apart = most_apart(coarse.theory->cell_part(), fine.theory->cell_part(), fine.common_ends_with_coarse);
+               apart = most_apart(coarse.cell_part, fine.cell_part, fine.common_ends_with_coarse);
   return std::max({difference(now.friction, before.friction), difference(now.share, before.share),
                    difference(fine.theory->unit_g(), coarse.theory->unit_g()), difference(now.kappa, before.kappa),
                    std::fabs(now.slope - before.slope), std::fabs(now.friction_slope - before.friction_slope),
@@ -264,25 +263,36 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     return std::fmax(share * model_.rtol - others_, least_accepted * model_.rtol);
   };
   double change_before = 0;
+  bool with_rests = false;  // which take a third of what the level takes
   for (std::size_t number = 1; number < levels.size(); ++number) {
     if (number > 1) heed();
     Level& level = at_velocity(levels, number);
-    const ContactSums now = solve_at(level, before.kappa);
-    const double change = change_between(*coarse, before, level, now);
-    const double lateral = across(level, now);
-    double error = (by_pieces || window_ ? of_change : of_change_at_fronts) * change;
-    if (rings_of_) {
-      const double off = std::fmax(most_apart(coarse->cell_across, level.cell_across, level.common_ends_with_coarse),
-                                   std::fabs(lateral - across_before));
-      error = of_change_with_rings * std::fmax(change, now.friction > 0 ? off / now.friction : 0) + needed_.rest;
-      across_before = lateral;
+    ContactSums now = solve_at(level, before.kappa);
+    double lateral = across(level, now);
+    const auto error_between = [&] {
+      const double change = change_between(*coarse, before, level, now);
+      double result = (by_pieces || window_ ? of_change : of_change_at_fronts) * change;
+      if (!by_pieces) result = std::fmax(result, of_change_before * std::exchange(change_before, change));
+      if (rings_of_ && now.friction > 0) {
+        double off = of_change_across *
+                     std::fmax(most_apart(coarse->cell_across, level.cell_across, level.common_ends_with_coarse),
+                               std::fabs(lateral - across_before));
+        if (by_pieces && needed_.count > 0)
+          off = std::fmax(off, of_left_out * (with_rests ? level.left_out : left_out(level)));
+        result = std::fmax(result, off / now.friction);
+      }
+      if (by_pieces && knots && result <= accepted(most_error)) result = std::fmax(result, beside_knots(level, now));
+      return result + needed_.rest + (by_pieces ? of_rest * RoughnessPieces::roughest(number) + of_edges : 0);
+    };
+    if (with_rests) lateral += add_rests(level, now);
+    double error = error_between();
+    if (by_pieces && needed_.count > 0 && !with_rests && now.friction > 0 && !(error <= accepted(most_error))) {
+      with_rests = true;
+      across_before += add_rests(*coarse, before);
+      lateral += add_rests(level, now);
+      error = error_between();
     }
-    if (!by_pieces) error = std::fmax(error, of_change_before * std::exchange(change_before, change));
-    if (by_pieces) {
-      if (rings_of_ && error <= model_.rtol) error = std::fmax(error, of_scatter * scatter(level, now));
-      if (knots && error <= model_.rtol) error = std::fmax(error, beside_knots(level, now));
-      error += of_rest * RoughnessPieces::roughest(number) + of_edges;
-    }
+    across_before = lateral;
     if (!analytic_ || (number == 1 && !by_pieces && !kinks())) outside = outside_share(level, now);
     before = now;
     solved_ = coarse = &level;

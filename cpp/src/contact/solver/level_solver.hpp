@@ -62,16 +62,20 @@ class LevelSolver {
     std::unique_ptr<Theory> theory;
     CommonEnds common_ends_with_coarse;       // the level before
     std::vector<ModulusFactors> factors;      // none where all are 1
-    Rings rings;                              // with directions
+    Rings rings, rests;                       // with directions; of pieces, where they are asked for
     std::optional<RoughnessCells> from_next;  // to the first of panels, where the modulus is analytic
     double velocity = 0;
     std::vector<double> frequency, i1, i2;
-    std::vector<double> across;            // of rings, as i1
-    Eigen::VectorXd per_loss, sideways;    // with directions: the sum of friction over I1, and the force across
-    Eigen::VectorXd cell_across;           // its sums over cells
-    std::vector<double> about;             // I2 with the directions of all roughness, for PartialContact
-    std::vector<double> mean_i1, mean_i2;  // over directions, on pieces
-    std::vector<double> i1_outside;        // of unmeasured frequencies; of a Prony series on one level alone
+    std::vector<double> across;              // of rings, as i1
+    HarmonicRows rows;                       // of which they are made
+    std::vector<double> about;               // I2 with the directions of all roughness, for PartialContact
+    std::vector<double> mean_i1, mean_i2;    // over directions, on pieces
+    std::vector<double> i1_outside;          // of unmeasured frequencies; of a Prony series on one level alone
+    Eigen::VectorXd per_loss, sideways;      // with directions: the sum of friction over I1, and the force across
+    Eigen::VectorXd cell_part, cell_across;  // sums over cells
+    std::vector<double> rest_i1, rest_i2, rest_across;
+    std::vector<double> uneven;  // C over its mean less one, about at most, where rests are asked for
+    double left_out = 0;         // by add_rests, of friction or across, the root of the sum of squares over pieces
   };
   using Levels = std::vector<Level>;
   /// Whether the modulus has kinks over ln q.
@@ -85,15 +89,18 @@ class LevelSolver {
   void lay_out(Levels& levels, std::size_t number);
   void take_moduli(Level& level, bool first);
   void take_moduli_of_pieces(Level& level, bool first);
-  void add_directions_of_pieces(Level& level, std::span<double> of_loss);
+  [[nodiscard]] Directed directed(Level& level);
   void check_directions(const Level& level) const;
   [[nodiscard]] double change_between(const Level& coarse, const ContactSums& before, const Level& fine,
                                       const ContactSums& now) const;
-  [[nodiscard]] double scatter(const Level& level, const ContactSums& sums) const;
   [[nodiscard]] double beside_knots(const Level& level, const ContactSums& sums);
   [[nodiscard]] double outside_share(const Level& level, const ContactSums& sums) const;
   /// The force across of a level, as the sum of friction, with all directions of the roughness.
   [[nodiscard]] double across(Level& level, const ContactSums& sums) const;
+  /// Adds to friction what pieces leave out of harmonics; how much that is across.
+  double add_rests(Level& level, ContactSums& sums) const;
+  /// The root of the sum of squares of that over pieces, about at most.
+  [[nodiscard]] double left_out(const Level& level) const;
   [[nodiscard]] AngularIntegrals modulus(double wavenumber, Waves waves = Waves::of_roughness) const;
 
   const Spectrum& spectrum_;
@@ -115,9 +122,9 @@ class LevelSolver {
   std::optional<FrequencyRange> known_;
   std::optional<Rubber> analytic_;  // a Prony series, without the range that it was fitted on
   std::optional<Excitation> analytic_waves_;
-  std::vector<double> frequency_, i1_, i2_, of_loss_, outside_at_points_;  // at the points of cells
-  std::vector<double> loss_, square_;                                      // rows of harmonics at them
-  std::vector<double> at_nodes_, loss_at_nodes_, square_at_nodes_;
+  std::vector<double> frequency_, outside_at_points_;  // at the points of cells
+  HarmonicRows at_points_;
+  std::vector<double> at_nodes_;
   std::vector<double> of_i1_, of_i2_;  // what the rule misses of I1 and I2 at the nodes
   bool known_in_part_ = false, any_outside_ = false;
   ContactSums sums_;

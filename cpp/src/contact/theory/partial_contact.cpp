@@ -41,6 +41,7 @@ class PartialContactTheory final : public Theory {
   void begin_at(double log_kappa) override { kappa_ = std::exp(log_kappa); }
   void differentiate(const ModulusSlopes& along, ContactSlopes& result) override;
   void gradient(const ContactNumber& number, ContactGradient& result) override;
+  [[nodiscard]] const VectorXd& stress_slopes() override;
   [[nodiscard]] VectorXd steering() const override;
   [[nodiscard]] double stress_at(double g, double wavenumber, double i2) const override;
   [[nodiscard]] double density_of_edges(double wavenumber, double i1, double i2) const override;
@@ -80,6 +81,7 @@ class PartialContactTheory final : public Theory {
   double kappa_ = usual_kappa, area_ = 1, excess_ = 0, edges_ = 0, obstacle_ = 0, off_rule_ = 0;
   PartialEnd end_;
   VectorXd weight_, steepness_;          // dG and g' of the band's nodes, at unit load
+  VectorXd log_slope_;                   // of R of the band's nodes over ln G, the obstacle Z / A^2 alone
   VectorXd share_, of_waves_, in_tail_;  // A and Z of the band's nodes; int dln x of T / g'(q_e) of the edges'
 };
 
@@ -102,6 +104,7 @@ void PartialContactTheory::take(const NodeModulus& modulus) {
   steepness_ = Eigen::Map<const VectorXd>(beyond.window.data(), n).cwiseProduct(Eigen::Map<const VectorXd>(about, n));
   stress_.resize(n);
   share_.resize(n);
+  log_slope_.resize(n);
   end_.g = unit_g();
   end_.window = beyond.end->window;
   if (count == 0) return;
@@ -119,7 +122,7 @@ const ContactSums& PartialContactTheory::solve(double scale, double rtol, double
   end_.band = {grid_.beyond().end->factor, excess_ = excess(), crossed_};
   const PartialNodes nodes{g_.data(), steepness_.data(), weight_.data(), ratio_.data(),
                            static_cast<std::size_t>(g_.size())};
-  sums_ = partial_root(nodes, end_, scale, rtol, start, share_.data(), stress_.data());
+  sums_ = partial_root(nodes, end_, scale, rtol, start, {share_.data(), stress_.data(), log_slope_.data()});
   kappa_ = sums_.kappa;
   edges_ = sums_.edges;
   obstacle_ = sums_.obstacle;
@@ -323,6 +326,11 @@ void PartialContactTheory::gradient(const ContactNumber& number, ContactGradient
     result.total -= over_excess;
   }
   back_through_macro(g_macro > 0 ? by_macro / g_macro : 0, result);
+}
+
+const VectorXd& PartialContactTheory::stress_slopes() {
+  stress_slopes_ = log_slope_.cwiseQuotient(g_);
+  return stress_slopes_;
 }
 
 VectorXd PartialContactTheory::steering() const {

@@ -52,13 +52,13 @@ bool wide() {
 
 }  // namespace
 
-PartialSums partial_sums(const PartialNodes& nodes, double scale, double obstacle, double obstacle_slope, double* share,
-                         double* stress) {
+PartialSums partial_sums(const PartialNodes& nodes, double scale, double obstacle, double obstacle_slope,
+                         const PartialColumns& result) {
   const ShareTable& table = table_of_shares();
 #ifdef __x86_64__
-  if (wide()) return avx2::sums(table, nodes, scale, obstacle, obstacle_slope, share, stress);
+  if (wide()) return avx2::sums(table, nodes, scale, obstacle, obstacle_slope, result);
 #endif
-  return baseline::sums(table, nodes, scale, obstacle, obstacle_slope, share, stress);
+  return baseline::sums(table, nodes, scale, obstacle, obstacle_slope, result);
 }
 
 void eighth_roots(const double* of, std::size_t n, double* result) {

@@ -25,10 +25,14 @@ struct PartialSums {
   double variance = 0, variance_slope = 0, friction = 0, friction_slope = 0;
 };
 
-/// At kappa times the scale of G, with Z = `obstacle` A^2 steepness and the slope of ln obstacle over ln kappa; A and R
-/// of each node go to `share` and `stress`.
-PartialSums partial_sums(const PartialNodes& nodes, double scale, double obstacle, double obstacle_slope, double* share,
-                         double* stress);
+/// A and R of each node, and dR / dln G at its Z / A^2.
+struct PartialColumns {
+  double *share, *stress, *stress_slope;
+};
+
+/// At kappa times the scale of G, with Z = `obstacle` A^2 steepness and the slope of ln obstacle over ln kappa.
+PartialSums partial_sums(const PartialNodes& nodes, double scale, double obstacle, double obstacle_slope,
+                         const PartialColumns& result);
 
 /// A of each G, as the loop takes it.
 void contact_shares(const double* g, std::size_t n, double* share);

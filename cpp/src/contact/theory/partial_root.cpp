@@ -22,12 +22,12 @@ struct Residual {
   ContactSums at;
 };
 
-Residual residual(const PartialNodes& nodes, const PartialEnd& end, double scale, double kappa, double* share,
-                  double* stress) {
+Residual residual(const PartialNodes& nodes, const PartialEnd& end, double scale, double kappa,
+                  const PartialColumns& columns) {
   const double g = kappa * scale * end.g;
   const partial_contact::AtEnd rule(g, kappa, end.band);
   const PartialSums sums =
-      partial_sums(nodes, kappa * scale, rule.obstacle.value * scale, rule.obstacle.log_slope, share, stress);
+      partial_sums(nodes, kappa * scale, rule.obstacle.value * scale, rule.obstacle.log_slope, columns);
   const double in_tail = rule.edges.value * end.window;
   const double variance = sums.variance + in_tail * end.tail.i2, friction = sums.friction + in_tail * end.tail.i1;
   Residual result{};
@@ -51,12 +51,12 @@ Residual residual(const PartialNodes& nodes, const PartialEnd& end, double scale
 }  // namespace
 
 ContactSums partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double start,
-                         double* share, double* stress) {
+                         const PartialColumns& columns) {
   constexpr double longest_step = 1.5;
   const double good = std::fmin(1e-4, 0.03 * std::sqrt(rtol));
   double x = std::log(start), below = -std::numeric_limits<double>::infinity(), above = -below;
   for (int i = 0; i < 100; ++i) {
-    Residual found = residual(nodes, end, scale, std::exp(x), share, stress);
+    Residual found = residual(nodes, end, scale, std::exp(x), columns);
     if (!std::isfinite(found.value)) break;
     (found.value < 0 ? below : above) = x;
     double step = -found.value / found.at.slope;

@@ -36,8 +36,8 @@ struct PartialEnd {
 
 /// A kappa to start from that knows no other point: it is 0.3 to 2 where it was seen.
 inline constexpr double usual_kappa = 0.75;
-/// NotConverged where there is no root. `share` and `stress` have room for A and R at each node.
+/// NotConverged where there is no root. `result` has room for the numbers of each node.
 ContactSums partial_root(const PartialNodes& nodes, const PartialEnd& end, double scale, double rtol, double start,
-                         double* share, double* stress);
+                         const PartialColumns& result);
 
 }  // namespace asperity

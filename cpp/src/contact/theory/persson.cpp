@@ -3,6 +3,7 @@
 // B. N. J. Persson, J. Chem. Phys. 115, 3840 (2001).
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "contact/grid/directions.hpp"
@@ -26,6 +27,8 @@ auto slopes_of(const LegendreRule& rule) {
                                                              Eigen::OuterStride<>(LegendreRule::most));
 }
 
+constexpr double begins = 0.02, ends = 10;  // of G: P changes between
+
 double p_of(double g, Form form) { return g <= 0 ? 1 : contact_share(g, form); }
 
 class PerssonTheory final : public Theory {
@@ -47,6 +50,7 @@ class PerssonTheory final : public Theory {
   void gradient(const ContactNumber& number, ContactGradient& result) override;
   [[nodiscard]] double front_misfit() override;
   [[nodiscard]] const VectorXd& stress() override;  // on pieces their means
+  [[nodiscard]] const VectorXd& stress_slopes() override;
   [[nodiscard]] double stress_at(double g, double /*wavenumber*/, double /*i2*/) const override { return p_s(g); }
 
  private:
@@ -59,11 +63,6 @@ class PerssonTheory final : public Theory {
   void take_stress();
   void take_columns();
   [[nodiscard]] double rise_of(std::size_t cell) const { return f_edge_[cell + 1] - f_edge_[cell]; }
-  [[nodiscard]] double upper_of(std::size_t piece) const {
-    const double* const f = &f_[static_cast<Index>(2 * piece)];
-    const Upper by = by_upper(piece);
-    return by.rise * rise_of(piece) - by.first * f[0] - by.second * f[1];
-  }
   void make_stress(Eigen::Ref<VectorXd> g) const;
 
   std::size_t pieces_ = grid_.pieces() ? grid_.cells().size() : 0;
@@ -146,7 +145,15 @@ void PerssonTheory::integrate_to(double scale) {
   f_.resize(g_.size());
   integral_of(g_at_load_.data(), f_.size(), f_.data());
   const auto& cells = grid_.cells();
-  for (std::size_t c = 0; c < pieces_; ++c) f_.segment<2>(static_cast<Index>(2 * c)).array() -= f_edge_[c];
+  measure_.resize(f_.size());
+  for (std::size_t c = 0; c < pieces_; ++c) {
+    double* const f = &f_[static_cast<Index>(2 * c)];
+    f[0] -= f_edge_[c];
+    f[1] -= f_edge_[c];
+    const Upper by = by_upper(c);
+    const double upper = by.rise * rise_of(c) - by.first * f[0] - by.second * f[1];
+    measure_.segment<2>(static_cast<Index>(2 * c)) << rise_of(c) - upper, upper;
+  }
   for (std::size_t c = pieces_; c < cells.size(); ++c)
     f_.segment(static_cast<Index>(cells[c].first), static_cast<Index>(cells[c].count)).array() -= f_edge_[c];
 }
@@ -154,12 +161,6 @@ void PerssonTheory::integrate_to(double scale) {
 const VectorXd& PerssonTheory::part() {
   if (part_is_of_load_) return part_;
   part_is_of_load_ = true;
-  measure_.resize(f_.size());
-  for (std::size_t c = 0; c < pieces_; ++c) {
-    const auto i = static_cast<Index>(2 * c);
-    measure_[i + 1] = upper_of(c);
-    measure_[i] = rise_of(c) - measure_[i + 1];
-  }
   const auto& cells = grid_.cells();
   for (std::size_t c = pieces_; c < cells.size(); ++c) {
     const auto first = static_cast<Index>(cells[c].first), count = static_cast<Index>(cells[c].count);
@@ -213,8 +214,7 @@ const ContactSums& PerssonTheory::solve(double scale, double /*rtol*/, double /*
   cell_part_.resize(std::ssize(cells));
   for (std::size_t c = 0; c < pieces_; ++c) {
     const auto i = static_cast<Index>(2 * c);
-    const double upper = upper_of(c);
-    cell_part_[static_cast<Index>(c)] = ratio_[i] * (rise_of(c) - upper) + ratio_[i + 1] * upper;
+    cell_part_[static_cast<Index>(c)] = ratio_[i] * measure_[i] + ratio_[i + 1] * measure_[i + 1];
   }
   if (!grid_.pieces()) {
     if (!columns_are_of_modulus_) take_columns();
@@ -235,11 +235,29 @@ const ContactSums& PerssonTheory::solve(double scale, double /*rtol*/, double /*
   return sums_;
 }
 
+/// From the mean stress before, between and behind the nodes of a piece, whose middles lie as those of Gauss' rule.
+const VectorXd& PerssonTheory::stress_slopes() {
+  constexpr double node = std::numbers::inv_sqrt3, beyond = (3 * node - 1) / (2 * (1 + node));
+  stress_slopes_.setZero(f_.size());
+  for (std::size_t c = 0; c < pieces_; ++c) {
+    if (edge_[c + 1] < begins) continue;
+    const auto i = static_cast<Index>(2 * c);
+    const double *const g = g_at_load_.data() + i, *const f = f_.data() + i;
+    const double before = g[0] - edge_[c], between = g[1] - g[0], behind = edge_[c + 1] - g[1],
+                 lower = before * between * (before + between), upper = between * behind * (between + behind);
+    if (!(lower > 0 && upper > 0)) continue;
+    const double rise = f[1] - f[0], first = 2 * scale_ * (rise * before - f[0] * between) / lower,
+                 second = 2 * scale_ * ((rise_of(c) - f[1]) * between - rise * behind) / upper;
+    stress_slopes_[i] = first + beyond * (first - second);
+    stress_slopes_[i + 1] = second + beyond * (second - first);
+  }
+  return stress_slopes_;
+}
+
 /// What a panel's rule on P S dG is off the rise of F, times half of what R changes between two nodes there: by parts,
 /// friction has F at all ends, and what the rule misses of a front is no farther from a node.
 double PerssonTheory::front_misfit() {
   if (grid_.pieces()) return 0;
-  constexpr double begins = 0.02, ends = 10;  // of G: P changes between
   double result = 0;
   for (std::size_t c = 0; c < grid_.cells().size(); ++c) {
     if (!(edge_[c] < ends && edge_[c + 1] > begins)) continue;

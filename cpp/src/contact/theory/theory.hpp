@@ -115,6 +115,8 @@ class Theory {
   /// Of the band's nodes: G at unit load, and what stands where Eq. 22 has P S.
   [[nodiscard]] const Eigen::VectorXd& node_g() const { return g_; }
   [[nodiscard]] virtual const Eigen::VectorXd& stress() { return stress_; }
+  /// Of the last solution on pieces: how that of each node changes with G at unit load.
+  [[nodiscard]] virtual const Eigen::VectorXd& stress_slopes() = 0;
   /// Of all nodes: I1 / I2.
   [[nodiscard]] const Eigen::VectorXd& ratio() const { return ratio_; }
 
@@ -135,7 +137,7 @@ class Theory {
   Eigen::VectorXd place_;  // ln q of the band's nodes
   double scale_ = 0, macro_ = 1, mean_place_ = 0;
   ContactSums sums_;
-  Eigen::VectorXd i2_, ratio_, part_, cell_part_, stress_;
+  Eigen::VectorXd i2_, ratio_, part_, cell_part_, stress_, stress_slopes_;
   // at unit load: at the nodes of the band, at q_m and at the ends of cells
   Eigen::VectorXd g_;
   double g_macro_ = 0;
