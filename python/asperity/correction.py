@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array, frozen, vector
-from asperity.base.diagnostics import Argument, Must, must_be, valued
+from asperity.base.diagnostics import Argument, InvalidInput, Must, must_be, valued
 from asperity.base.parameters import parameter
 from asperity.base.quantities import FIRST_WAVENUMBER, HEIGHT, RMS_HEIGHT, SPACING
 from asperity.base.value import CoreValue, Value, value

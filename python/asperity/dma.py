@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import (
     ABSENT,
     Array,
@@ -23,7 +22,7 @@ from asperity.base.arguments import (
     real_array,
     vector,
 )
-from asperity.base.diagnostics import Argument, Note, refusal, unfit
+from asperity.base.diagnostics import Argument, InvalidInput, Note, refusal, unfit
 from asperity.base.parameters import column
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import around, value

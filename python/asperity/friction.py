@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, adhesion_core
 from asperity.base.arguments import (
     MOST_THREADS,
@@ -21,7 +20,7 @@ from asperity.base.arguments import (
     of_kind,
     whole,
 )
-from asperity.base.diagnostics import Argument, Note, fatal_first, unfit
+from asperity.base.diagnostics import Argument, InvalidInput, Note, fatal_first, unfit
 from asperity.contact import Form, Method, contact_model, implausible_notes
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of

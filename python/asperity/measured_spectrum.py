@@ -6,9 +6,8 @@ from collections.abc import Iterable
 from typing import Any, Literal, get_args
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import choice, flag, number_or_none, of_kind, whole
-from asperity.base.diagnostics import Argument, must_be, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, must_be, refusal
 from asperity.base.value import around
 from asperity.io.objects import surface_from
 from asperity.spectrum import LineSpectrum, TabulatedSpectrum

@@ -5,9 +5,8 @@ from typing import Any
 import numpy as np
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import Vector, frozen, number_or_none, real_array, vector
-from asperity.base.diagnostics import Argument
+from asperity.base.diagnostics import Argument, InvalidInput
 from asperity.base.parameters import column
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import value

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import (
     ABSENT,
     Array,
@@ -24,7 +23,7 @@ from asperity.base.arguments import (
     shaped,
     whole,
 )
-from asperity.base.diagnostics import Argument, Note
+from asperity.base.diagnostics import Argument, InvalidInput, Note
 from asperity.base.parameters import column, parameter
 from asperity.base.quantities import RELAXED_MODULUS
 from asperity.base.table import Column, Columns, Table

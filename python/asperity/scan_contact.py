@@ -13,9 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array, frozen, path_of, reading
-from asperity.base.diagnostics import must_be, refusal
+from asperity.base.diagnostics import InvalidInput, must_be, refusal
 from asperity.base.parameters import parameter
 from asperity.base.table import Column, Columns, Table
 from asperity.base.value import Value, value

@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import ABSENT, Array, OptionalVector, Vector, brief, number, over
-from asperity.base.diagnostics import Argument, must_be, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, must_be, refusal
 from asperity.base.parameters import column, parameter
 from asperity.base.quantities import DECADES, TEMPERATURE
 from asperity.base.table import Table

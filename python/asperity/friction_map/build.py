@@ -6,10 +6,9 @@ from typing import Any
 import numpy as np
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, adhesion_core
 from asperity.base.arguments import MOST_THREADS, notes_of, number, of_kind, real_array, whole
-from asperity.base.diagnostics import Argument, Note, refusal, unfit
+from asperity.base.diagnostics import Argument, InvalidInput, Note, refusal, unfit
 from asperity.contact import Form, Method, contact_model
 from asperity.correction import Correction
 from asperity.dma import AnyRubber, rubber_of

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput, __version__
-from asperity.base.diagnostics import Argument
+from asperity._core import __version__
+from asperity.base.diagnostics import Argument, InvalidInput
 from asperity.base.table import imported
 from asperity.friction_map.look_up import NOTE_LINE, FrictionMap
 

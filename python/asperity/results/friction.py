@@ -6,9 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array, Shape, broadcast, frozen, known, real_array
-from asperity.base.diagnostics import Argument, Note, Value, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, Note, Value, refusal
 from asperity.base.parameters import column
 from asperity.base.table import Column, Columns, Table, declared_columns
 from asperity.base.value import value

@@ -6,8 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from asperity._core import Error
-from asperity.base.diagnostics import Note, kelvin
+from asperity.base.diagnostics import Error, Note, kelvin
 from asperity.heating import Heating
 from asperity.shift_factors import ArrheniusFit, WlfFit
 

@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput, NotConverged
 from asperity.adhesion import Adhesion, AdhesionFit, fit_adhesion
 from asperity.base.arguments import Array
-from asperity.base.diagnostics import must_have
+from asperity.base.diagnostics import InvalidInput, NotConverged, must_have
 from asperity.base.parameters import parameters
 from asperity.io.fields import in_keys
 from asperity.io.read_friction import MeasuredFriction

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import OutOfRange, extrapolation_notes
+from asperity._core import extrapolation_notes
 from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.base.arguments import Array, known
 from asperity.base.codes import FATAL, NOTES
-from asperity.base.diagnostics import Note, fatal_first
+from asperity.base.diagnostics import Note, OutOfRange, fatal_first
 from asperity.base.quantities import temperature_text
 from asperity.base.value import value
 from asperity.contact import contact_area, contact_notes, pressure_distribution

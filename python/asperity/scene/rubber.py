@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from asperity._core import InvalidInput, OutOfRange
 from asperity.base import quantities
-from asperity.base.diagnostics import Note, valued
+from asperity.base.diagnostics import InvalidInput, Note, OutOfRange, valued
 from asperity.base.quantities import ZERO_CELSIUS
 from asperity.dma import MasterCurveBuild, build_master_curve
 from asperity.io import plausible

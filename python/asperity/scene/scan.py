@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array, reading
-from asperity.base.diagnostics import Note, must_be
+from asperity.base.diagnostics import InvalidInput, Note, must_be
 from asperity.io.read_surface import read_surface
 from asperity.measured_spectrum import NO_DIRECTIONS, Window, line_spectrum, power_spectrum
 from asperity.plane_spectrum import anisotropy

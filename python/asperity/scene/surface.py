@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from asperity import _core
-from asperity._core import Error, InvalidInput, OutOfRange
 from asperity.base import quantities
-from asperity.base.diagnostics import Argument, Note, valued
+from asperity.base.diagnostics import Argument, Error, InvalidInput, Note, OutOfRange, valued
 from asperity.io import plausible
 from asperity.io.fields import (
     Field,

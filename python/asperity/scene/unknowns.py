@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice, number, shortened
-from asperity.base.diagnostics import MUST_BE, Argument, must_be, refusal
+from asperity.base.diagnostics import MUST_BE, Argument, InvalidInput, must_be, refusal
 from asperity.io.fields import Field, count, nearest
 from asperity.results.gradients import Gradients
 from asperity.scene.keys import KEYS

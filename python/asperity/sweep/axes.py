@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import brief
-from asperity.base.diagnostics import Argument, must_be, must_have, refusal, valued
+from asperity.base.diagnostics import Argument, InvalidInput, must_be, must_have, refusal, valued
 from asperity.io import plausible
 from asperity.io.fields import Field, angles, nearest, read_table, sweep
 from asperity.scene.keys import KEYS

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import InvalidInput
-from asperity.base.diagnostics import Argument, Note, must_have, refusal, valued
+from asperity.base.diagnostics import Argument, InvalidInput, Note, must_have, refusal, valued
 from asperity.base.table import imported
 from asperity.io.fields import nearest
 

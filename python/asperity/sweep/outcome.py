@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import Error
-from asperity.base.diagnostics import Note, fatal_first
+from asperity.base.diagnostics import Error, Note, fatal_first
 
 Numbers = NDArray[np.float64]
 Where = tuple[Any, ...]  # an index of a box that gives a view of it

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from asperity._core import InvalidInput, __version__
+from asperity._core import __version__
 from asperity.base.arguments import brief
-from asperity.base.diagnostics import Argument, Note, must_be, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, Note, must_be, refusal
 from asperity.io.fields import nearest
 from asperity.results.friction import COLUMNS, HEAT
 from asperity.scene.keys import FILES, files_of, with_files

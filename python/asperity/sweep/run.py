@@ -10,9 +10,8 @@ from pathlib import Path
 from queue import SimpleQueue
 from typing import Any
 
-from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath, flag, path_of
-from asperity.base.diagnostics import refusal, unfit
+from asperity.base.diagnostics import Error, InvalidInput, refusal, unfit
 from asperity.base.table import imported
 from asperity.io import plausible
 from asperity.scene.scene import read_tables

@@ -10,9 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import Error, InvalidInput
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import Note
+from asperity.base.diagnostics import Error, InvalidInput, Note
 from asperity.base.executors import in_one_line
 from asperity.base.table import imported
 from asperity.io.aside import folder_beside

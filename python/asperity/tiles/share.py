@@ -3,9 +3,8 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
-from asperity._core import Error
 from asperity.base.arguments import MOST_THREADS, whole
-from asperity.base.diagnostics import unfit
+from asperity.base.diagnostics import Error, unfit
 from asperity.base.executors import accepted, in_one_line, in_order
 
 Outcome = TypeVar("Outcome")

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asperity._core import Error, InvalidInput
 from asperity.base.arguments import brief, is_masked
-from asperity.base.diagnostics import Argument, must_be, must_have, refusal
+from asperity.base.diagnostics import Argument, Error, InvalidInput, must_be, must_have, refusal
 from asperity.base.executors import in_one_line
 from asperity.surface import HeightMap, LineScan, pixel_sizes
 from asperity.tiles.file_array import FileArray, file_behind

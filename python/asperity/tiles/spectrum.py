@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 
 from asperity import _core
-from asperity._core import InvalidInput
 from asperity.base.arguments import number
-from asperity.base.diagnostics import Argument, must_be, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, must_be, refusal
 from asperity.spectrum import TabulatedSpectrum
 from asperity.tiles.coarse import Coarse, Columns, block_of, coarsen, few_modes, without_blocks
 from asperity.tiles.grid import Grid

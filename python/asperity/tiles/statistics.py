@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import Array, choice
-from asperity.base.diagnostics import Argument, must_be
+from asperity.base.diagnostics import Argument, InvalidInput, must_be
 from asperity.base.parameters import column
 from asperity.base.table import Table
 from asperity.base.value import value

@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.adhesion import Adhesion, AdhesionFit
 from asperity.base.arguments import Array, known
-from asperity.base.diagnostics import MUST_BE, Argument, Note, valued
+from asperity.base.diagnostics import MUST_BE, Argument, InvalidInput, Note, valued
 from asperity.dma import MasterCurveBuild, master_curve_modes
 from asperity.friction import Friction, friction
 from asperity.rubber import MasterCurve, Rubber

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from importlib.resources import as_file, files
 from pathlib import Path
 
-from asperity._core import InvalidInput
 from asperity.base.arguments import brief, reading
-from asperity.base.diagnostics import Argument, must_be, must_have, refusal
+from asperity.base.diagnostics import Argument, InvalidInput, must_be, must_have, refusal
 from asperity.io.files import check_file
 from asperity.io.read_surface import cell
 from asperity.spectrum import SelfAffineSpectrum, Spectrum

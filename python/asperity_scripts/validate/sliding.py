@@ -7,10 +7,9 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from asperity._core import InvalidInput
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import MUST_BE, Argument, Note
+from asperity.base.diagnostics import MUST_BE, Argument, InvalidInput, Note
 from asperity.cli.friction_commands import progress
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stdout, tell_notes
