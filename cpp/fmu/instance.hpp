@@ -182,6 +182,8 @@ struct Instance {
 
   Status size_of(const void* kept, std::size_t* size) const {
     if (kept == nullptr) return error("there is no state to be written");
+    if (static_cast<const State*>(kept)->points.size() != model->points())
+      return error("the state is one of another number of points");
     *size = bytes();
     return Status::ok;
   }

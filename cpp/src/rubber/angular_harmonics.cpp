@@ -168,12 +168,12 @@ bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
     const std::size_t here = std::min(together, n - from);
     bool has_outside = false;
     for (std::size_t i = 0; i < together; ++i) {
-      const double at = std::clamp(w[from + (i < here ? i : 0)], lowest_, high_.back());
+      const double at = std::min(std::max(lowest_, w[from + (i < here ? i : 0)]), high_.back());
       std::size_t c = first_[bucket(at) - lowest];
       while (at > high_[c]) ++c;
       const Cell& cell = cells_[c];
       const double share = std::max(0.0, (at - cell.panel_low) * cell.inverse_length);
-      u[i] = std::sqrt(share) * cell.by_root + share * cell.by_share + cell.shift;
+      u[i] = std::clamp(std::sqrt(share) * cell.by_root + share * cell.by_share + cell.shift, -1.0, 1.0);
       of[i] = &coefficient_[c * order * width_];
       outside[i] = &outside_[c * order * lanes];
       has_outside |= cell.has_outside;

@@ -35,9 +35,10 @@ struct AngularTable::Part {
   bool root;
   bool has_outside;  // whether more than 1e-7 of I1 comes from outside the measured range
   AngularPolynomials all, outside;
+  /// Within the part, whose ends a double may miss by more than a short part is long.
   [[nodiscard]] double place(double w) const {
     const double t = (w - origin) * per_length;
-    return scale * (root ? std::sqrt(t) : t) + shift;
+    return std::clamp(scale * (root ? std::sqrt(t) : t) + shift, -1.0, 1.0);
   }
 };
 
@@ -78,12 +79,13 @@ void AngularTable::append(std::size_t panel, double t0, double t1, Parts& parts)
   };
   const double tail = fit(part.all, at.all, tolerance) + fit(part.outside, at.outside, of_outside);
   constexpr std::size_t most = 64;
-  constexpr double rounding = 100;  // of the tail, which shorter parts no longer mend
-  if (tail <= 1 || (parts.size() >= most && tail <= rounding)) {
+  constexpr double shortest = 1e-12, rounding = 100;  // of the tail, which shorter parts no longer mend
+  if (tail <= 1 || ((parts.size() >= most || t1 - t0 < shortest) && tail <= rounding)) {
     parts.push_back(part);
-  } else if (parts.size() < most) {
-    append(panel, t0, (t0 + t1) / 2, parts);
-    append(panel, (t0 + t1) / 2, t1, parts);
+  } else if (parts.size() < most && t1 - t0 >= shortest) {
+    constexpr double gain = 9;  // the tail falls like this power of the length, as measured
+    const double pieces = std::clamp(std::ceil(std::pow(tail, 1 / gain)), 2.0, 8.0), step = (t1 - t0) / pieces;
+    for (double i = 0; i < pieces; ++i) append(panel, t0 + i * step, i + 1 < pieces ? t0 + (i + 1) * step : t1, parts);
   } else {
     throw NotConverged("angular integrals between w = " + show(low, 6) + " and " + show(high, 6) +
                        " rad/s: " + show(tail, 3) + " times the tolerance");

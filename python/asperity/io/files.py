@@ -5,6 +5,7 @@ import os
 import stat
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
+from functools import partial
 from pathlib import Path
 
 from asperity._core import Error, InvalidInput
@@ -138,7 +139,8 @@ def _write(target: Path, content: bytes) -> None:
         return
     part = target.parent / f".asperity-{os.urandom(8).hex()}"
     try:
-        with part.open("xb") as file:
+        private = partial(os.open, mode=0o666 if mode is None else 0o600)
+        with open(part, "xb", opener=private) as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())

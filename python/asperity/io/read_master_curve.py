@@ -13,8 +13,7 @@ from asperity.base.table import declared_columns
 from asperity.io import plausible
 from asperity.io.columns import Columns, Names
 from asperity.io.declared import file_of, read_declared, young
-from asperity.io.source import Frame
-from asperity.io.table import notes_in
+from asperity.io.source import Frame, notes_in
 from asperity.rubber import Extrapolation, MasterCurve
 from asperity.shift_factors import HasShiftFactors, TemperatureShift, temperature_shift_core
 

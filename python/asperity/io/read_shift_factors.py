@@ -17,8 +17,7 @@ from asperity.base.quantities import ZERO_CELSIUS
 from asperity.io import plausible
 from asperity.io.columns import cells_of, read_columns, unit_in
 from asperity.io.files import check_file
-from asperity.io.source import read_source
-from asperity.io.table import inputs_in
+from asperity.io.source import inputs_in, read_source, text_lines
 from asperity.shift_factors import ShiftFactors
 
 Column = NDArray[np.float64]
@@ -83,12 +82,13 @@ def _relative(file: Path, shifts: ShiftFactors) -> ShiftFactors:
 
 def _written_by_rubber(file: Path) -> tuple[Column, Column] | None:
     """The isotherms' shifts in a file of `asperity rubber`, CSV or JSON; None of any other."""
-    with suppress(OSError, InvalidInput, ValueError, KeyError, TypeError, IndexError):
+    with suppress(
+        OSError, InvalidInput, ValueError, KeyError, TypeError, IndexError, StopIteration
+    ):
         check_file(file)  # one might wait for a pipe
-        with file.open("rb") as content:
-            if content.read(1) == b"{":
-                isotherms = json.loads(file.read_bytes())["inputs"][0]["isotherms"]
-                return np.array(isotherms["temperature_k"]), np.array(isotherms["log10_a_t"])
+        if next(text_lines(file)).startswith("{"):
+            isotherms = json.loads(file.read_bytes())["inputs"][0]["isotherms"]
+            return np.array(isotherms["temperature_k"]), np.array(isotherms["log10_a_t"])
         inputs = inputs_in(file)
         temperature, shift = (inputs[f"isotherms.{key}"] for key in ("temperature_k", "log10_a_t"))
         return np.array(json.loads(temperature)), np.array(json.loads(shift))

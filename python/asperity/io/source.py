@@ -2,15 +2,18 @@
 workbook, whose rows become lines with cells parted by tabs."""
 
 import codecs
+import json
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
 from asperity._core import InvalidInput
 from asperity.base.arguments import quoted, reading
+from asperity.base.diagnostics import Note, must_be
 from asperity.io.archive import Archive
 from asperity.io.files import check_file
 from asperity.io.instrument import understood
@@ -83,6 +86,24 @@ def text_lines(path: Path, sheets: list[tuple[int, str]] | None = None) -> Itera
                 yield line.rstrip("\r\n")
         except UnicodeError as error:
             raise InvalidInput(f"ends or breaks within a character: {error}") from error
+
+
+def inputs_in(path: Path) -> dict[str, str]:
+    """The inputs at the head of a CSV file of ours, as JSON by their keys; others have none."""
+    head = takewhile(lambda line: line.startswith("#"), text_lines(path))
+    parts = [line.removeprefix("# ").partition(" = ") for line in head]
+    return {key: text for key, mark, text in parts if mark}
+
+
+def notes_in(path: Path) -> tuple[Note, ...]:
+    """The notes that a file has among its inputs."""
+    try:
+        lines = json.loads(inputs_in(path).get("note_lines", "[]"))
+    except ValueError:
+        lines = None
+    if not isinstance(lines, list) or not all(isinstance(one, str) for one in lines):
+        raise must_be("note_lines", "a list of texts", where=path)
+    return tuple(map(Note.of_line, lines))
 
 
 def _encoding(begin: bytes) -> str:

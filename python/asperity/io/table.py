@@ -7,14 +7,12 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import takewhile
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from asperity._core import __version__
-from asperity.base.diagnostics import Note, fatal_first, must_be
+from asperity.base.diagnostics import Note, fatal_first
 from asperity.base.parameters import key_of, without_unit
 
 
@@ -63,25 +61,6 @@ def columns_of(measured: Any) -> dict[str, Any]:
     columns = measured._columns()
     every = {**columns.coordinates, **columns.variables}
     return {key_of(name, one.unit): one.values for name, one in every.items()}
-
-
-def inputs_in(path: Path) -> dict[str, str]:
-    """The inputs at the head of a CSV file of ours, as JSON by their keys; others have none."""
-    with path.open(encoding="utf-8-sig", errors="replace") as file:
-        head = takewhile(lambda line: line.startswith("#"), file)
-        parts = [line.removeprefix("# ").partition(" = ") for line in head]
-    return {key: text for key, mark, text in parts if mark}
-
-
-def notes_in(path: Path) -> tuple[Note, ...]:
-    """The notes that a file has among its inputs."""
-    try:
-        lines = json.loads(inputs_in(path).get("note_lines", "[]"))
-    except ValueError:
-        lines = None
-    if not isinstance(lines, list) or not all(isinstance(one, str) for one in lines):
-        raise must_be("note_lines", "a list of texts", where=path)
-    return tuple(map(Note.of_line, lines))
 
 
 def input_lines(inputs: Mapping[str, Any]) -> list[str]:

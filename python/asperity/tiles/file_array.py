@@ -16,7 +16,6 @@ from asperity._core import InvalidInput
 from asperity.base.arguments import FilePath, reading
 
 Stamp = tuple[int, int, int, int]
-_SAMPLE = 4096  # bytes by which a file is known
 
 
 @dataclass(frozen=True)
@@ -87,7 +86,7 @@ def file_behind(array: NDArray[Any]) -> FileArray | None:
     path = os.fspath(owner.filename)
     with reading(FilePath(path)), open(path, "rb", buffering=0) as file:
         stamp = stamp_of(os.fstat(file.fileno()))
-        same = _is_mapped(file, start, mapping._mmap)
+        same = _is_mapped(file, mapping._mmap)
     if not same:
         raise InvalidInput("was replaced after it was mapped: load it again", where=FilePath(path))
     ny, nx = array.shape
@@ -95,14 +94,38 @@ def file_behind(array: NDArray[Any]) -> FileArray | None:
     return FileArray(path, place, (ny, nx), (down, along), array.dtype, stamp)
 
 
-def _is_mapped(file: Any, start: int, mapping: Any) -> bool:
-    """Whether a mapping is of this file, from `start` on, by what both have first and last; past
-    the end of a file that was cut short a mapping must not be touched."""
-    reach = os.fstat(file.fileno()).st_size - start
-    for first in (0, max(0, len(mapping) - _SAMPLE)):
-        last = min(first + _SAMPLE, len(mapping))
-        if last <= reach:
-            file.seek(start + first)
-            if file.read(last - first) != mapping[first:last]:
-                return False
-    return True
+def _is_mapped(file: Any, mapping: Any) -> bool:
+    """Whether a mapping is of this file: by its inode where Linux tells, elsewhere by its length.
+
+    The file is mapped again and the two mappings are compared, as the device of a mapping need not
+    be that of `stat` (overlays, subvolumes).
+    """
+    length = os.fstat(file.fileno()).st_size
+    if not length:  # nothing to map, and nothing to read either
+        return True
+    with mmap.mmap(file.fileno(), 1, access=mmap.ACCESS_READ) as again:
+        now, then = _inode(_address(again)), _inode(_address(mapping))
+    if now is not None and then is not None:
+        return now == then
+    try:
+        return bool(mapping.size() == length)
+    except (OSError, ValueError):  # a mapping that keeps no file open
+        return True
+
+
+def _address(mapping: Any) -> int:
+    return np.frombuffer(mapping, np.uint8, 1).ctypes.data
+
+
+def _inode(address: int) -> tuple[str, str] | None:
+    """Return the device and the inode of the mapping at an address, where Linux tells."""
+    try:
+        with open("/proc/self/maps") as maps:
+            for line in maps:
+                span, _, _, device, inode = line.split(maxsplit=5)[:5]
+                first, end = (int(place, 16) for place in span.split("-"))
+                if first <= address < end:
+                    return (device, inode) if inode != "0" else None
+    except (OSError, ValueError):
+        return None
+    return None

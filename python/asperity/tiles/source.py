@@ -85,6 +85,8 @@ class Source:
 def source_of(surface: Any, pixel_size: Any, scale: float = 1.0) -> Source:
     """Return the heights of a HeightMap or of an array, checked but not read; a source as it is."""
     if isinstance(surface, Source):
+        if pixel_size is not None:
+            raise InvalidInput(Argument("pixel_size"), ": an opened map has its own")
         return surface
     if isinstance(surface, LineScan):
         raise must_be("surface", "a map; a line scan has no tiles", " = a LineScan")

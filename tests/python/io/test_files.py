@@ -100,11 +100,14 @@ def test_two_writers_of_one_file_end_with_one_of_both(tmp_path):
 
 
 @pytest.mark.parametrize("mode", [0o600, 0o640, 0o604, 0o755])
-def test_permissions_of_a_file_stay(tmp_path, mode):
+def test_permissions_of_a_file_stay(tmp_path, mode, monkeypatch):
     target = tmp_path / "a"
     target.write_bytes(b"old")
     target.chmod(mode)
+    written = []  # the modes of the part while it is written
+    monkeypatch.setattr(os, "fsync", lambda file: written.append(os.fstat(file).st_mode & 0o177))
     write_whole(target, b"new")
+    assert written == [0]
     assert target.read_bytes() == b"new"
     assert stat.S_IMODE(target.stat().st_mode) == mode
 

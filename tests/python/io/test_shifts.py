@@ -78,10 +78,11 @@ def sweeps(tmp_path, monkeypatch):
 def test_whatever_the_verb_writes_is_read_as_shifts(sweeps, capsys):
     assert main([*sweeps, "--output", "a.csv", "--write-shift", "b.csv"]) == 0
     assert main([*sweeps, "--output", "a.json", "--json"]) == 0
-    read = [
-        read_shift_factors(name, reference_temperature=293.15)
-        for name in ("a.csv", "b.csv", "a.json")
-    ]
+    for name in ("a.csv", "a.json"):  # as other programs save them again
+        Path(f"16-{name}").write_text(Path(name).read_text("utf-8"), encoding="utf-16")
+        Path(f"bom-{name}").write_text(Path(name).read_text("utf-8"), encoding="utf-8-sig")
+    names = ["a.csv", "b.csv", "a.json", "16-a.csv", "16-a.json", "bom-a.csv", "bom-a.json"]
+    read = [read_shift_factors(name, reference_temperature=293.15) for name in names]
     for one in read:
         np.testing.assert_allclose(one.log10_a_T, [2, 1, 0, -1, -2], atol=0.02)
         assert one == read[0]

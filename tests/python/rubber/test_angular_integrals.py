@@ -81,3 +81,17 @@ def test_units_far_from_one_leave_the_integrals_as_they_are(
     i1, i2 = scaled.angular_integrals(frequency_scale * at)
     expected = np.asarray(curve.angular_integrals(at))
     np.testing.assert_allclose([i1 / modulus_scale, i2 / modulus_scale**2], expected, rtol=2e-12)
+
+
+@pytest.mark.parametrize("apart", [1e-13, 2e-12, 1e-11, 1e-9])
+@pytest.mark.parametrize("seed", range(5))
+def test_rows_that_nearly_meet_leave_the_integrals_between_their_neighbours(seed, apart):
+    """A part of a panel shorter than what doubles tell apart asked polynomials far outside."""
+    rng = np.random.default_rng(seed)
+    w = np.geomspace(1e-2, 1e6, 41)
+    w = np.sort(np.append(w, w[rng.integers(41)] * (1 + apart)))
+    storage = 1e6 * (w / 1e-2) ** 0.25 * np.exp(rng.normal(0, 0.03, w.size))
+    curve = MasterCurve(angular_frequency=w, storage_modulus=storage, loss_modulus=0.3 * storage)
+    for integral in curve.angular_integrals(w):
+        assert np.all(integral[1:] / integral[:-1] > 0.8)
+        assert np.all(integral[1:] / integral[:-1] < 2)

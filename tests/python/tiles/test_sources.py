@@ -124,10 +124,14 @@ def test_a_file_that_is_written_meanwhile_is_an_error(tmp_path):
         source_of(array, 1)
 
 
-@pytest.mark.parametrize("length", [30, 40])
-def test_a_file_that_was_replaced_after_it_was_mapped_is_refused(tmp_path, length):
+INSIDE = HEIGHTS.copy()
+INSIDE[10:30] *= 7
+
+
+@pytest.mark.parametrize("other", [7 * HEIGHTS[:30], 7 * HEIGHTS, INSIDE], ids=len)
+def test_a_file_that_was_replaced_after_it_was_mapped_is_refused(tmp_path, other):
     array = mapped(tmp_path / "map.npy", HEIGHTS)
-    np.save(tmp_path / "new.npy", 7 * HEIGHTS[:length])
+    np.save(tmp_path / "new.npy", other)
     os.replace(tmp_path / "new.npy", tmp_path / "map.npy")
     with pytest.raises(InvalidInput, match=r"map\.npy: was replaced after it was mapped: load it"):
         height_statistics(array, pixel_size=1)

@@ -323,24 +323,28 @@ void RoughnessPieces::add_piece(const Points& p, double upper) {
   std::vector<HarmonicsAt> at_points;
   for (std::size_t k = 0; k < n && count > 0; ++k) at_points.emplace_back(*directions_, foot_ * std::exp(p.y[k]));
   std::vector<double> row(n);
-  const std::size_t rests_before = nodes_.rest.cosine.size();
-  for (const double at : z) {
-    const double m_here = one.at_mean + one.slope * at;
-    const auto take = [&](std::vector<double>& to, std::vector<double>& to_rest, auto harmonic) {
-      for (std::size_t k = 0; k < n; ++k) row[k] = harmonic(at_points[k]);
-      const Line line = project(row);
+  const std::size_t before = nodes_.line.cosine.size();
+  for (Nodes::Harmonics* const of_nodes : {&nodes_.line, &nodes_.rest})
+    for (auto* const harmonics : {&of_nodes->cosine, &of_nodes->sine}) harmonics->resize(before + 2 * count);
+  const auto take = [&](std::size_t m, std::vector<double>& to, std::vector<double>& to_rest, auto harmonic) {
+    for (std::size_t k = 0; k < n; ++k) row[k] = harmonic(at_points[k]);
+    const Line line = project(row);
+    for (std::size_t node = 0; node < 2; ++node) {
+      const double at = z[node], m_here = one.at_mean + one.slope * at;
       double rest = 0;
       for (std::size_t k = 0; k < n; ++k) {
         const double l = (1 + at * (p.y[k] - of.mean) / of.deviation) / (1 + at * at);
         rest += p.weight[k] * row[k] * l * (of_one[k] - m_here);
       }
-      to.push_back(line.at_mean + line.slope * at);
-      to_rest.push_back(rest / (of.all * of.all));
-    };
-    for (std::size_t m = 0; m < count; ++m) {
-      take(nodes_.line.cosine, nodes_.rest.cosine, [m](const HarmonicsAt& of_wave) { return of_wave.cosine(m); });
-      take(nodes_.line.sine, nodes_.rest.sine, [m](const HarmonicsAt& of_wave) { return of_wave.sine(m); });
+      to[before + node * count + m] = line.at_mean + line.slope * at;
+      to_rest[before + node * count + m] = rest / (of.all * of.all);
     }
+  };
+  for (std::size_t m = 0; m < count; ++m) {
+    take(m, nodes_.line.cosine, nodes_.rest.cosine, [m](const HarmonicsAt& of_wave) { return of_wave.cosine(m); });
+    take(m, nodes_.line.sine, nodes_.rest.sine, [m](const HarmonicsAt& of_wave) { return of_wave.sine(m); });
+  }
+  for (const double at : z) {
     const double of_c = one.at_mean + one.slope * at, of_c_z = first.at_mean + first.slope * at;
     nodes_.wavenumber.push_back(std::fmin(surface_.back().b, foot_ * std::exp(of.mean + at * of.deviation)));
     nodes_.weight.push_back(of.all / (1 + at * at));
@@ -352,7 +356,7 @@ void RoughnessPieces::add_piece(const Points& p, double upper) {
   const double apart = (z[1] - z[0]) * of.deviation;
   double square = 0;
   for (const std::vector<double>& rest : {std::cref(nodes_.rest.cosine), std::cref(nodes_.rest.sine)})
-    for (std::size_t k = rests_before; k < rests_before + count; ++k)
+    for (std::size_t k = before; k < before + count; ++k)
       square += std::pow(rest[k] + rest[k + count], 2) + std::pow((rest[k] - rest[k + count]) / 2 * apart, 2);
   if (count > 0) nodes_.rest_size.push_back(std::sqrt(square));
 }

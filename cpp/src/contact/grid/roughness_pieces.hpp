@@ -38,8 +38,9 @@ class RoughnessPieces {
     std::vector<double> weight;  // int c l_k dy, l_k the straight line that is 1 at the node and 0 at the other
     std::vector<double> window;  // of RoughnessWindow
     /// With directions, a row of harmonics a node: that of the straight lines which stand for harmonics a of the table
-    /// on a piece, and int a l_k (m - m_k) dm over the square of its roughness, m the roughness up to a wave, l_k the
-    /// line that is 1 at the node.
+    /// on a piece, and int a l_k (m - m_k) dm over the square of its roughness, m the roughness from the
+    /// piece's lower end up to a wave, m_k its straight line at the node, l_k the line that is 1 there and 0 at the
+    /// other.
     struct Harmonics {
       std::vector<double> cosine, sine;
     };

@@ -43,7 +43,6 @@ void LevelSolver::check_directions(const Level& level) const {
 }
 
 double LevelSolver::across(Level& level, const ContactSums& sums) const {
-  level.cell_part = level.theory->cell_part();
   if (!rings_of_ || !(sums.friction > 0)) {
     level.sideways.resize(0);
     level.cell_across.resize(0);
@@ -66,8 +65,11 @@ double LevelSolver::across(Level& level, const ContactSums& sums) const {
 
 /// The sum over the nodes of a piece has of harmonics a straight line each. Beside it, to first order in a and with f =
 /// I1 / I2, int f R dG has I2^2 df/da dR/dG int a l_k (m - m_k) dm at each node, as G rises with what scatters in m;
-/// and as a bows beside the line, which half of the slope over ln q from a node to the other makes up for.
+/// and as a bows beside the line, which half of the slope over ln q from a node to the other makes up for. What steers
+/// the force across of PartialContact is left to the next order.
 double LevelSolver::add_rests(Level& level, ContactSums& sums) const {
+  level.next_order = 0;
+  if (level.cell_across.size() == 0) return 0;  // there is no friction
   const Index pieces = std::ssize(level.grid->cells());
   if (level.rests.count == 0) {
     level.rests = waves_.directions()->rests(*level.grid);
@@ -103,7 +105,7 @@ double LevelSolver::add_rests(Level& level, ContactSums& sums) const {
     squares_beside += across * across * next * next;
   }
   sums.friction += of_friction;
-  level.left_out = std::sqrt(std::fmax(squares, squares_beside));
+  level.next_order = std::sqrt(std::fmax(squares, squares_beside));
   return beside;
 }
 

@@ -250,8 +250,11 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
   solved_ = coarse;
   check_g(g_, pressure);
   const bool friction = by_pieces || window_ || options_.hysteresis;  // an area of PartialContact asks for its kappa
-  const auto solve_at = [&](const Level& level, double kappa) {
-    return friction ? level.theory->solve(scale_, model_.rtol, kappa) : ContactSums{};
+  const auto solve_at = [&](Level& level, double kappa) {
+    if (!friction) return ContactSums{};
+    const ContactSums sums = level.theory->solve(scale_, model_.rtol, kappa);
+    level.cell_part = level.theory->cell_part();
+    return sums;
   };
   ContactSums before = solve_at(*coarse, usual_kappa);
   double outside = by_pieces || kinks() ? outside_share(*coarse, before) : 0, across_before = across(*coarse, before);
@@ -278,7 +281,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
                      std::fmax(most_apart(coarse->cell_across, level.cell_across, level.common_ends_with_coarse),
                                std::fabs(lateral - across_before));
         if (by_pieces && needed_.count > 0)
-          off = std::fmax(off, of_left_out * (with_rests ? level.left_out : left_out(level)));
+          off = std::fmax(off, of_left_out * (with_rests ? level.next_order : left_out(level)));
         result = std::fmax(result, off / now.friction);
       }
       if (by_pieces && knots && result <= accepted(most_error)) result = std::fmax(result, beside_knots(level, now));

@@ -69,13 +69,13 @@ class LevelSolver {
     std::vector<double> across;              // of rings, as i1
     HarmonicRows rows;                       // of which they are made
     std::vector<double> about;               // I2 with the directions of all roughness, for PartialContact
-    std::vector<double> mean_i1, mean_i2;    // over directions, on pieces
+    std::vector<double> mean_i1, mean_i2;    // over directions, on pieces where the modulus has kinks
     std::vector<double> i1_outside;          // of unmeasured frequencies; of a Prony series on one level alone
     Eigen::VectorXd per_loss, sideways;      // with directions: the sum of friction over I1, and the force across
     Eigen::VectorXd cell_part, cell_across;  // sums over cells
     std::vector<double> rest_i1, rest_i2, rest_across;
     std::vector<double> uneven;  // C over its mean less one, about at most, where rests are asked for
-    double left_out = 0;         // by add_rests, of friction or across, the root of the sum of squares over pieces
+    double next_order = 0;       // what add_rests leaves out, root of the sum of squares over pieces
   };
   using Levels = std::vector<Level>;
   /// Whether the modulus has kinks over ln q.

@@ -115,7 +115,8 @@ class Theory {
   /// Of the band's nodes: G at unit load, and what stands where Eq. 22 has P S.
   [[nodiscard]] const Eigen::VectorXd& node_g() const { return g_; }
   [[nodiscard]] virtual const Eigen::VectorXd& stress() { return stress_; }
-  /// Of the last solution on pieces: how that of each node changes with G at unit load.
+  /// Of the last solution on pieces: how that of each node changes with G at unit load, over [1/Pa^2], at the obstacle
+  /// that PartialContact has.
   [[nodiscard]] virtual const Eigen::VectorXd& stress_slopes() = 0;
   /// Of all nodes: I1 / I2.
   [[nodiscard]] const Eigen::VectorXd& ratio() const { return ratio_; }
