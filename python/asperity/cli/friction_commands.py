@@ -117,15 +117,15 @@ def check_outputs(args: Namespace, **others: str | None) -> list[Path]:
         check_plot(FilePath(args.plot))
     flags: dict[str, str] = {}  # by the files that they lead to
     outputs: list[Path] = []
-    for flag, name in {"output": args.output, "plot": args.plot, **others}.items():
+    for option, name in {"output": args.output, "plot": args.plot, **others}.items():
         if name is None:
             continue
+        flag = f"--{option.replace('_', '-')}"
         outputs.append(FilePath(name))
         check_output(outputs[-1])
         first = flags.setdefault(os.path.realpath(name), flag)
         if first != flag:
-            both = f"--{first} and --{flag.replace('_', '-')}"
-            raise InvalidInput(f"{both} must be different files", where=outputs[-1])
+            raise InvalidInput(f"{first} and {flag} must be different files", where=outputs[-1])
     return outputs
 
 

@@ -14,7 +14,7 @@ from asperity.base.arguments import Array, FilePath, reading
 from asperity.base.diagnostics import Argument, InvalidInput, Note, must_be
 from asperity.base.parameters import parameters
 from asperity.cli.friction_commands import check_outputs, progress
-from asperity.cli.options import flags, given, typed_options
+from asperity.cli.options import flags, list_used, typed_options
 from asperity.cli.streams import print_stderr, print_stdout, printable, tell_notes
 from asperity.draw.style import drawn_in
 from asperity.fmu.export import PLATFORMS, export_fmu, platforms
@@ -45,7 +45,7 @@ def friction_map_of(args: Namespace) -> None:
     if args.info is None:
         _make(args, outputs, exported)
         return
-    for flag in given(args, "pressure velocity rtol checked output plot style"):
+    for flag in list_used(args, "pressure velocity rtol checked output plot style"):
         raise InvalidInput(Argument(flag), ": goes with a SCENE.toml, not with --info")
     source = FilePath(args.info)
     refuse_overwrite(outputs, [source])

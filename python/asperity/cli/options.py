@@ -193,22 +193,22 @@ def flags(*arguments: str) -> dict[str, str]:
     return {name: f"--{name.replace('_', '-')}" for name in arguments}
 
 
-def given(args: argparse.Namespace, options: str) -> list[str]:
-    """Those of some options that are given, as they are typed."""
+def list_used(args: argparse.Namespace, options: str) -> list[str]:
+    """Those of some options that a command has, as they are typed."""
     values = typed_options(args)
     flags = [f"--{name}" for name in options.split()]
     return [flag for flag in flags if values[flag] not in (None, {}) and values[flag] is not False]
 
 
 def goes_with(args: argparse.Namespace, options: str, others: str) -> None:
-    """Refuse each of some options where none of the others, with which they go, is given."""
-    found = given(args, options)
-    if found and not given(args, others):
-        beside = " and ".join(f"--{name}" for name in others.split())
-        raise InvalidInput(Argument(found[0]), f": goes with {beside}")
+    """Refuse each of some options where none of the others, with which they go, is used."""
+    used = list_used(args, options)
+    if used and not list_used(args, others):
+        beside = " or ".join(f"--{name}" for name in others.split())
+        raise InvalidInput(Argument(used[0]), f": goes with {beside}")
 
 
 def exclusive(args: argparse.Namespace, options: str) -> None:
-    found = given(args, options)
-    if len(found) > 1:
-        raise must_be("", "one of them", ", ".join(found))
+    used = list_used(args, options)
+    if len(used) > 1:
+        raise must_be("", "one of them", ", ".join(used))

@@ -14,7 +14,7 @@ from asperity.base.codes import FATAL
 from asperity.base.diagnostics import Argument, Error, InvalidInput, Note, must_be
 from asperity.base.table import imported
 from asperity.cli.friction_commands import shows_bars
-from asperity.cli.options import exclusive, given, goes_with
+from asperity.cli.options import exclusive, goes_with, list_used
 from asperity.cli.streams import print_stderr, print_stdout, tell_notes
 from asperity.draw.figure import check_plot
 from asperity.draw.style import drawn_in
@@ -99,7 +99,7 @@ def _compute(args: Namespace, executor: Any) -> None:
 
 def _look_at_store(args: Namespace, path: Path, looks: bool) -> None:
     """Draw or rank what an earlier sweep computed."""
-    for flag in given(args, "output workers scheduler mpi resume force dry-run"):
+    for flag in list_used(args, "output workers scheduler mpi resume force dry-run"):
         problem = f": {path} is a store: give a SWEEP.toml to compute"
         raise InvalidInput(Argument(flag), problem)
     if not looks:

@@ -90,6 +90,8 @@ def test_whatever_the_verb_writes_is_read_as_shifts(sweeps, capsys):
     capsys.readouterr()
     assert main([*sweeps, "--output", "a.csv", "--write-shift", "a.csv"]) == 2
     assert "--output and --write-shift must be different files" in capsys.readouterr().err
+    assert main([*sweeps, "--write-shift", "d.csv", "--write-prony", "d.csv"]) == 2
+    assert "--write-shift and --write-prony must be different files" in capsys.readouterr().err
 
 
 def modulus(instantaneous, pairs, w):

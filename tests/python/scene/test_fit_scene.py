@@ -296,7 +296,7 @@ def test_the_verb_has_the_digits_of_the_function(scene, tmp_path, capsys):
         (["--free", "surface.q1"], "--free surface.q1: is no number"),
         (["--free", free, "--prior", "surface.hurst=1,1"], "--prior"),
         (["--compare", "--hold", "width=0.1"], "--hold"),
-        (["--prior", "surface.hurst=1,1"], "--prior: goes with"),
+        (["--prior", "surface.hurst=1,1"], "--prior: goes with --free or --compare"),
     ):
         assert main(["fit", str(path), str(file), *more]) == 2
         assert text in capsys.readouterr().err

@@ -123,7 +123,7 @@ BAD = {
     "--rank rubbers --at surface.hurst=0.75": "is not on the axis, which has 0.7, 0.8, 0.9",
     "--rank rubbers --at hurst=0.7": "--at hurst: is no axis, did you mean surface.hurst?",
     "--plot p.png": "must be at most 3 beside conditions.velocity_m_s: fix the others by --at",
-    "--at surface.hurst=0.7": "--at: goes with --plot and --rank",
+    "--at surface.hurst=0.7": "--at: goes with --plot or --rank",
 }
 
 
