@@ -45,11 +45,17 @@ def listening(host: str, port: int) -> socket.socket:
     if not 0 <= port <= 65535:
         raise InvalidInput(Argument("--port"), " ", valued(port), MUST_BE, "in 0..65535")
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    bound = socket.socket(family)  # create_server would refuse IPv4 at "::"
     try:
-        return socket.create_server((host, port), family=family, backlog=64)
+        if os.name == "posix":  # elsewhere it lets another program take the port
+            bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        bound.bind((host, port))
+        bound.listen(64)
     except OSError as error:
+        bound.close()
         problem = f"--host {host}, --port {port}: cannot be listened at: {error.strerror or error}"
         raise InvalidInput(problem) from error
+    return bound
 
 
 def _run(bound: socket.socket, token: str, port: int) -> None:

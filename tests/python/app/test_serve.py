@@ -1,5 +1,6 @@
 """The server answers nobody without the token, and serves everything that its page needs."""
 
+import errno
 import os
 import re
 import signal
@@ -14,6 +15,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from asperity.app.serve import listening
 from asperity.cli.main import main
 from helpers.served import served
 
@@ -68,9 +70,9 @@ def test_a_port_that_is_taken_or_none_is_refused(capsys: pytest.CaptureFixture[s
     with socket.socket() as taken:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
-        number = taken.getsockname()[1]
+        number, in_use = taken.getsockname()[1], os.strerror(errno.EADDRINUSE)
         for options, problem in (
-            (["--port", f"{number}"], f"--port {number}: cannot be listened at: "),
+            (["--port", f"{number}"], f"{number}: cannot be listened at: {in_use}\n"),
             (["--port", "70000"], "--port 70000: must be in 0..65535"),
             (["--port", "-1"], "--port -1: must be in 0..65535"),
             (["--host", "256.0.0.1"], "--host 256.0.0.1"),
@@ -80,6 +82,13 @@ def test_a_port_that_is_taken_or_none_is_refused(capsys: pytest.CaptureFixture[s
             assert out == ""
             assert problem in err
             assert err.count("\n") == 1
+
+
+@pytest.mark.skipif(not socket.has_dualstack_ipv6(), reason="there is no IPv6 here")
+def test_all_addresses_are_those_of_both_kinds() -> None:
+    with listening("::", 0) as bound:
+        for host in ("127.0.0.1", "::1"):
+            socket.create_connection((host, bound.getsockname()[1]), timeout=10).close()
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="there is no SIGHUP here")
