@@ -25,6 +25,7 @@ from asperity.io import plausible
 from asperity.io.fields import rename_in_errors
 from asperity.io.files import check_output, refuse_overwrite, write_files
 from asperity.plot import friction_map as plot_map
+from asperity.scene.keys import NAMES
 from asperity.scene.mapped import heat_of_map, map_of_scene, rubber_of_map
 from asperity.scene.model import Scene
 from asperity.scene.progress import with_contacts
@@ -61,10 +62,9 @@ def _make(args: Namespace, outputs: list[Path], exported: Path | None) -> None:
         _check_sides(args, scene)
     how = {} if args.checked is None else {"checked": args.checked}
     how |= {"pressure": args.pressure, "velocity": args.velocity, "unusual": unusual}
-    names = flags("pressure", "velocity", "checked") | {"rtol": "[solver] rtol"}
-    if args.rtol is not None:
-        names["rtol"] = "--rtol"
-    with rename_in_errors(scene.path, names, scene.typed):
+    options = ("pressure", "velocity", "checked", "rtol")
+    used = [name for name in options if getattr(args, name) is not None]
+    with rename_in_errors(scene.path, NAMES | flags(*used), scene.typed):
         made = _shown_while_built(scene, args.rtol or scene.stated_rtol or _RTOL, **how)
     files = _export(made, exported)
     if args.output is not None:

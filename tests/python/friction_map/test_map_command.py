@@ -12,7 +12,7 @@ import scipy.io
 
 import asperity
 from asperity.scene.scene import load_scene
-from helpers.scenes import ADHESION, CONDITIONS, HEATING, LAW, RUBBER, SCENE, SURFACE
+from helpers.scenes import ADHESION, CONDITIONS, CURVE, HEATING, LAW, RUBBER, SCENE, SURFACE
 from helpers.shell import status_of
 
 QUICK = ["--checked", "2000"]
@@ -94,6 +94,19 @@ def test_what_cannot_be_done_is_said_in_a_line(scene, capsys, arguments, message
     assert message in told.err
     assert len(told.err.splitlines()) == 1
     assert {path.name for path in scene.parent.iterdir()} == {"scene.toml", "cold.toml"}
+
+
+@pytest.mark.parametrize(
+    ("options", "named"),
+    [([], "[conditions] velocity_m_s = "), (["--velocity", "1e-5,1"], "--velocity = 1e-5")],
+)
+def test_velocities_off_the_curve_are_named_as_they_were_stated(scene, capsys, options, named):
+    lines = [f"{w:.6g},{1e6 * w**0.1:.6g},{2e5 * w**0.1:.6g}\n" for w in np.geomspace(1, 1e6, 30)]
+    header = "angular_frequency_rad_s,storage_modulus_pa,loss_modulus_pa\n"
+    (scene.parent / "curve.csv").write_text(header + "".join(lines), encoding="utf-8")
+    scene.write_text(SURFACE + CURVE + CONDITIONS, encoding="utf-8")
+    assert status_of(["map", scene, "--output", "a.fmap", *options]) == 2
+    assert capsys.readouterr().err.startswith(f"asperity: {scene}: {named}")
 
 
 INTERRUPTED = """
