@@ -271,7 +271,10 @@ class TabulatedSpectrum(Rows, _Spectrum):
     preparation: str | None = None
     _beside: ClassVar[Mapping[str, Any]] = {"preparation": None}
     _facts = (*Rows._facts, "slope_ratio", "q1", "preparation")
-    _grids = (*Rows._grids, "cosine", "sine", "harmonic_error")
+    _grids: ClassVar[Mapping[str, str]] = {
+        **Rows._grids,
+        **dict.fromkeys(("cosine", "sine", "harmonic_error"), "harmonics"),
+    }
     _pairs = (*Rows._pairs, ("slope_ratio", "kurtosis"), ("cosine", "sine"), ("sine", "cosine"))
 
     def __post_init__(self) -> None:

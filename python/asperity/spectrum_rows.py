@@ -1,5 +1,6 @@
 """Spectra that are given row by row: their columns, checked, as tables and as pictures."""
 
+from collections.abc import Mapping
 from typing import Any, ClassVar, Self
 
 import numpy as np
@@ -7,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from asperity import _core
 from asperity.base.arguments import Array, Conversion, frozen, number, real_array, vector
-from asperity.base.diagnostics import must_be, must_have
+from asperity.base.diagnostics import Argument, InvalidInput, Must, must_be, must_have, valued
 from asperity.base.table import Table, declared_columns
 from asperity.base.value import like
 
@@ -25,7 +26,7 @@ class Rows(Table):
     flag: Any
     correlation: Any
     _facts: ClassVar[tuple[str, ...]] = ("skewness", "kurtosis", "curvature_kurtosis")
-    _grids: ClassVar[tuple[str, ...]] = ("correlation",)  # columns of two axes
+    _grids: ClassVar[Mapping[str, str]] = {"correlation": "lags"}  # columns of rows and these
     _pairs: ClassVar[tuple[tuple[str, str], ...]] = (  # the first is not given without the second
         ("skewness", "kurtosis"),
         ("kurtosis", "skewness"),
@@ -35,7 +36,8 @@ class Rows(Table):
     def __post_init__(self) -> None:
         self._take()
         self._set(flag=_flags(self.flag))
-        self._set(**{name: _two_axes(getattr(self, name), name) for name in self._grids})
+        for name, columns in self._grids.items():
+            self._set(**{name: _two_axes(getattr(self, name), name, columns)})
         for name in ("count", "standard_error", "flag", "correlation"):
             column = getattr(self, name)
             if column is not None and column.size == 0:  # to the core, a column that is not given
@@ -105,10 +107,11 @@ def _flags(flags: Any) -> NDArray[np.uint8] | None:
     return frozen(numbers.astype(np.uint8))
 
 
-def _two_axes(entries: Any, name: str) -> Array | None:
+def _two_axes(entries: Any, name: str, columns: str) -> Array | None:
     if entries is None:
         return None
     array = np.array(real_array(entries, name), order="C")
     if array.ndim != 2:
-        raise must_have(name, "two axes, one of rows", f" has {array.ndim} dimensions")
+        allowed = Must(": must have "), f"two axes, rows and {columns}"
+        raise InvalidInput(Argument(name), " = ", valued(array), *allowed)
     return frozen(array)

@@ -265,6 +265,14 @@ def test_what_does_not_go_together_is_refused_by_one_argument(argument, call):
     assert caught.value.argument == argument
 
 
+@pytest.mark.parametrize(("name", "other"), [("cosine", "harmonics"), ("correlation", "lags")])
+def test_one_row_for_all_wavenumbers_lacks_an_axis(name, other):
+    with pytest.raises(InvalidInput) as caught:
+        table(**{name: [0.1, 0.2]})
+    assert (caught.value.argument, caught.value.allowed) == (name, f"two axes, rows and {other}")
+    assert caught.value.value == repr(np.array([0.1, 0.2]))
+
+
 def test_too_few_peaks_are_said_so_by_their_code():
     with pytest.raises(InvalidInput) as caught:
         asperity.LocalPeaks([1e-4])
