@@ -133,17 +133,17 @@ def check(
         return
     size = quantity.size(numbers, unit)
     lowest, highest = int(size.argmin()), int(size.argmax())
-    for at, side, words, limit in (
-        (lowest, -1, (MUST_BE, "at least"), quantity.least),
-        (highest, 1, (MUST_BE, "at most"), quantity.most),
-        (lowest, -1, (": unusual, below",), quantity.low),
-        (highest, 1, (": unusual, above",), quantity.high),
+    for at, side, absurd, words, limit in (
+        (lowest, -1, True, (MUST_BE, "at least"), quantity.least),
+        (highest, 1, True, (MUST_BE, "at most"), quantity.most),
+        (lowest, -1, False, (": unusual, below",), quantity.low),
+        (highest, 1, False, (": unusual, above",), quantity.high),
     ):
         # sweeps end on rounded numbers
         if limit is not None and side * (size[at] - limit.value) > 1e-9 * abs(limit.value):
-            code = "absurd-value" if MUST_BE in words else "unusual-value"
-            _tell(_sentence(name, float(numbers[at]), quantity, unit, words, limit), code, path)
-            if MUST_BE in words:
+            sentence = _sentence(name, float(numbers[at]), quantity, unit, words, limit)
+            _tell(sentence, "absurd-value" if absurd else "unusual-value", path, absurd=absurd)
+            if absurd:
                 return
 
 
@@ -167,12 +167,13 @@ def check_scan(path: object, heights: NDArray[Any], spacing: ArrayLike, unit: st
     likely = [other for other, (si, _) in others if 3e-5 <= number * si / length <= 0.1]
     guess = f"; heights in {likely[0]}? {number:.4g} {likely[0]} would do" if likely else ""
     words: Sentence = (MUST_BE, "at most 10 times the length (no surface stands so high)")
-    code = "absurd-heights"
-    if rms / length <= 10:
+    absurd, code = rms / length > 10, "absurd-heights"
+    if not absurd:
         where = "above half the length" if rms > length else "outside 5e-10 to 0.5 of the length"
         words, code = (f": unusual, {where}",), "unusual-heights"
     shown = f": rms height {rms:.4g} m on a length of {length:.4g} m"
-    _tell((Argument("unit"), " = ", valued(unit), shown, *words, guess), code, path)
+    sentence = Argument("unit"), " = ", valued(unit), shown, *words, guess
+    _tell(sentence, code, path, absurd=absurd)
 
 
 def check_load(name: str, pressure: ArrayLike, stiffest: float, *, path: object = ()) -> None:
@@ -192,16 +193,16 @@ def check_load(name: str, pressure: ArrayLike, stiffest: float, *, path: object 
     guess = "; moduli in MPa?" if 1e5 <= stiffest * 1e6 <= 2e10 else ""
     about = Argument(name), " = ", phrase, times
     words: Sentence = (", which squashes it",)
-    if highest > 10 * stiffest:
-        words = MUST_BE, "at most 10 times (it would be squashed)"
-    code = "absurd-pressure" if MUST_BE in words else "squashed-rubber"
-    _tell((*about, *words, guess), code, path)
+    absurd, code = highest > 10 * stiffest, "squashed-rubber"
+    if absurd:
+        words, code = (MUST_BE, "at most 10 times (it would be squashed)"), "absurd-pressure"
+    _tell((*about, *words, guess), code, path, absurd=absurd)
 
 
-def _tell(sentence: Sentence, code: str, path: object) -> None:
+def _tell(sentence: Sentence, code: str, path: object, *, absurd: bool) -> None:
     """Note it; what is absurd is refused where somebody collects."""
     sink = _sink.get()
-    if sink is not None and sink[1] and code.startswith("absurd"):
+    if sink is not None and sink[1] and absurd:
         raise InvalidInput(*sentence, code=code, where=path)
     _keep(Note(*sentence, code=code, where=path))
 
