@@ -47,6 +47,9 @@ class Figure:
     caption: str
 
 
+Draw = Callable[[], Figure | None]
+
+
 class Drawings:
     """Draws for one page: ids are numbered through it."""
 
@@ -73,10 +76,10 @@ class Drawings:
         draw = partial(plot_friction.friction_figure, scenes, curves, _SVG)
         return self._figure(draw, text, caption, 1 + heated + profiled)
 
-    def of_file(self, scene: Scene, result: SceneFriction, name: str) -> dict[str, Figure | None]:
-        """What a file is made of, and what makes its friction."""
-        surface, rubber = self._surface(scene, name), self._rubber(scene, name)
-        return {"surface": surface, "rubber": rubber, "design": self._design(scene, result, name)}
+    def of_file(self, scene: Scene, result: SceneFriction, name: str) -> list[Draw]:
+        """What draws the surface of a file, its rubber, and what makes its friction."""
+        parts: list[Draw] = [partial(draw, scene, name) for draw in (self._surface, self._rubber)]
+        return [*parts, partial(self._design, scene, result, name)]
 
     def _surface(self, scene: Scene, name: str) -> Figure:
         spectrum = scene.spectrum

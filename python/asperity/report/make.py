@@ -6,6 +6,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from importlib.resources import files
 from pathlib import Path
 
@@ -25,7 +26,7 @@ from asperity.report.contents import (
     source_rows,
     versions,
 )
-from asperity.report.drawings import Drawings
+from asperity.report.drawings import Draw, Drawings
 from asperity.report.texts import printable
 from asperity.scene.model import Scene, SceneFriction
 from asperity.scene.results import Bar, friction_table, no_bar, table_of, with_temperatures
@@ -80,24 +81,26 @@ def report_page(
     how = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}
     environment = jinja.Environment(**how, undefined=jinja.StrictUndefined)
     date, drawn = _now(), Drawings(environment)
-    with bar("pictures")([slice(i, i + 1) for i in range(1 + len(loaded))]) as each:
-        steps = iter(each)
-        next(steps)
-        overview = drawn.friction(scenes, curves)
-        pages = [
-            {
-                "name": name,
-                "results": results_of(with_temperatures(file), of_file),
-                **drawn.of_file(file, of_file[0], name),
-                "sources": source_rows(of_one, folder),
-                "inputs": input_rows(file),
-                "text": text,
-                "link": _link(text, "application/toml"),
-            }
-            for name, file, of_file, of_one, text, _ in zip(
-                names, loaded, results, sources, texts, steps, strict=True
-            )
-        ]
+    draw: list[Draw] = [partial(drawn.friction, scenes, curves)]
+    for name, file, of_file in zip(names, loaded, results, strict=True):
+        draw += drawn.of_file(file, of_file[0], name)
+    with bar("pictures")([slice(i, i + 1) for i in range(len(draw))]) as each:
+        overview, *pictures = [draw[one.start]() for one in each]
+    pages = []
+    for i, file in enumerate(loaded):
+        surface, rubber, design = pictures[3 * i : 3 * i + 3]
+        one = {
+            "name": names[i],
+            "results": results_of(with_temperatures(file), results[i]),
+            "surface": surface,
+            "rubber": rubber,
+            "design": design,
+            "sources": source_rows(sources[i], folder),
+            "inputs": input_rows(file),
+            "text": texts[i],
+            "link": _link(texts[i], "application/toml"),
+        }
+        pages.append(one)
     variants = compared(
         _variants(names, loaded), [scenes[i] for i in first], [curves[i] for i in first]
     )
@@ -158,7 +161,7 @@ def _link(text: str, kind: str) -> str:
 
 def _now() -> str:
     """The day in UTC; that of SOURCE_DATE_EPOCH, for whoever wants the same bytes again."""
-    stated = os.environ.get("SOURCE_DATE_EPOCH", f"{time.time():.0f}")
+    stated = os.environ.get("SOURCE_DATE_EPOCH", f"{int(time.time())}")
     try:
         return f"{datetime.fromtimestamp(int(stated), UTC):%Y-%m-%d}"
     except (ValueError, OverflowError, OSError):

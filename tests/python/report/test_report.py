@@ -4,8 +4,10 @@ import base64
 import csv
 import itertools
 import re
+import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from xml.etree.ElementTree import Element
 
@@ -15,6 +17,8 @@ import asperity
 from asperity.cli.main import main
 from asperity.demo import input_files
 from asperity.report.drawings import Drawings, Figure
+from asperity.report.make import report_page
+from asperity.scene.model import Progress
 from helpers.accessible import violations
 from helpers.scenes import ADHESION, RUBBER, SURFACE
 
@@ -176,6 +180,27 @@ def test_python_writes_the_same_bytes(
     with pytest.raises(asperity.InvalidInput, match="SOURCE_DATE_EPOCH = 'yesterday': must be"):
         asperity.report("law.toml", "one.html")
     assert Path("one.html").read_bytes() == one
+
+
+def test_the_day_is_that_of_the_last_whole_second_and_each_picture_a_step(
+    undrawn: None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    steps: Counter[str] = Counter()
+
+    def bar(title: str) -> Progress:
+        def progress(chunks: Sequence[slice]) -> AbstractContextManager[Iterable[slice]]:
+            steps[title] += len(chunks)
+            return nullcontext(chunks)
+
+        return progress
+
+    monkeypatch.delenv("SOURCE_DATE_EPOCH", raising=False)
+    monkeypatch.setattr(time, "time", lambda: 86399.7)
+    for name in ("one.toml", "two.toml"):
+        (tmp_path / name).write_text(SURFACE + RUBBER + FEW)
+    page = report_page([tmp_path / "one.toml", tmp_path / "two.toml"], bar=bar)
+    assert "on 1970-01-01" in page
+    assert steps["pictures"] == 7  # the overview, three of each file
 
 
 def test_a_number_without_a_digit_of_its_own_is_told(undrawn: None, tmp_path: Path) -> None:
