@@ -7,9 +7,9 @@ from typing import Any
 
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import MUST_BE, Argument, InvalidInput, Note
+from asperity.base.diagnostics import InvalidInput, Note
 from asperity.cli.friction_commands import progress
-from asperity.cli.options import typed_options
+from asperity.cli.options import exclusive, goes_with, typed_options
 from asperity.cli.streams import print_stdout, tell_notes
 from asperity.draw.figure import check_plot
 from asperity.draw.style import drawn_in
@@ -23,18 +23,19 @@ from asperity_scripts.validate.boundary_elements import own_contacts
 from asperity_scripts.validate.contacts import Contact, read_contacts, shipped
 from asperity_scripts.validate.figures import error_figure, shift_figure
 from asperity_scripts.validate.predictions import Prediction, models_for, predict
-from asperity_scripts.validate.sliding import refuse_alone, validate_sliding
+from asperity_scripts.validate.sliding import validate_sliding
 from asperity_scripts.validate.summary import error_rows, summary
 
 LOADS = (0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0)  # those of the shipped rows
 _AREA, _ENERGY, _SHIFT = "area_error.png", "energy_error.png", "shift.png"
+_OF_MAP = ("pixel_size", "unit", "channel", "detrend", "q0", "loads", "periodic")
 _FILES = ("summary.md", "errors.csv", _AREA, _ENERGY, _SHIFT)
 
 
 def validate(args: Namespace) -> None:
-    refuse_alone(args)
+    _check_options(args)
     if args.sliding:
-        surface, facts, unusual = _own_map(args) if args.surface else (None, _no_map(args), [])
+        surface, facts, unusual = _own_map(args) if args.surface else (None, {}, [])
         validate_sliding(args, surface, facts)
         return tell_notes(unusual, args.notes)
     directory = FilePath(args.output)
@@ -57,12 +58,9 @@ def validate(args: Namespace) -> None:
 def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[Note]]:
     """Contacts from rows or from a run of one's own surface, their origin, and what to know."""
     if args.surface is None:
-        _no_map(args)
         if args.rows is None:
             return shipped(), {"rows": "bem_area.csv, shipped"}, []
         return read_contacts(FilePath(args.rows)), {"rows": args.rows}, []
-    if args.rows is not None:
-        raise InvalidInput(Argument("--rows"), MUST_BE, "left out where --surface is given")
     flat, facts, unusual = _own_map(args)
     path = FilePath(args.surface)
     with rename_in_errors(path, {"loads": "--loads", "min_distance": "--q0"}):
@@ -77,24 +75,19 @@ def _contacts(args: Namespace) -> tuple[list[Contact], dict[str, Any], list[Note
     return contacts, facts, [*unusual, *notes]
 
 
-def _options_of_map(args: Namespace) -> dict[str, Any]:
-    names = ("pixel_size", "unit", "channel", "detrend", "q0", "loads", "periodic")
-    values = {name: getattr(args, name) for name in names}
-    return {
-        name: value for name, value in values.items() if value is not None and value is not False
-    }
-
-
-def _no_map(args: Namespace) -> dict[str, Any]:
-    if options := _options_of_map(args):
-        option = next(iter(options)).replace("_", "-")
-        raise InvalidInput(Argument(f"--{option}"), ": only goes with --surface")
-    return {}
+def _check_options(args: Namespace) -> None:
+    """Refuse options that do nothing beside others, or without them."""
+    for name in ("rows", "q0", "loads"):
+        exclusive(args, f"sliding {name}")
+    exclusive(args, "surface rows")
+    goes_with(args, "rubber velocities", "sliding")
+    goes_with(args, " ".join(_OF_MAP).replace("_", "-"), "surface")
 
 
 def _own_map(args: Namespace) -> tuple[HeightMap, dict[str, Any], list[Note]]:
     """A map read from --surface without its trend, what was given, and what to know of it."""
-    options = _options_of_map(args)
+    values = {name: getattr(args, name) for name in _OF_MAP}
+    options = {name: v for name, v in values.items() if v is not None and v is not False}
     path = FilePath(args.surface)
     flags = {"pixel_size": "--pixel-size", "unit": "--unit", "channel": "--channel"}
     with plausible.collected(typed_options(args)) as unusual, rename_in_errors(None, flags):

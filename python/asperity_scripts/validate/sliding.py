@@ -9,7 +9,7 @@ import numpy as np
 
 from asperity.base import quantities
 from asperity.base.arguments import FilePath
-from asperity.base.diagnostics import MUST_BE, Argument, InvalidInput, Note
+from asperity.base.diagnostics import Note
 from asperity.cli.friction_commands import progress
 from asperity.cli.options import typed_options
 from asperity.cli.streams import print_stdout, tell_notes
@@ -82,13 +82,3 @@ def _scene(args: Namespace) -> tuple[Scene, list[Note]]:
         write_files({FilePath(aside) / name: data for name, data in input_files().items()})
         scene = load_scene(FilePath(aside) / "scene.toml")
     return replace(scene, path=Path("scene.toml")), []
-
-
-def refuse_alone(args: Namespace) -> None:
-    """Options of --sliding do nothing without it, and others nothing with it."""
-    for name in ("rubber", "velocities"):
-        if not args.sliding and getattr(args, name) is not None:
-            raise InvalidInput(Argument(f"--{name}"), ": only goes with --sliding")
-    for name in ("rows", "q0", "loads"):
-        if args.sliding and getattr(args, name) is not None:
-            raise InvalidInput(Argument(f"--{name}"), MUST_BE, "left out where --sliding is given")
