@@ -102,7 +102,7 @@ def pressed(height_map: asperity.HeightMap, row: Row, rtol: float, **at: float) 
     return slide(height_map, rubber(row["rubber"]), **at, periodic=True, rtol=rtol)
 
 
-def found(result: SlidingContact, **more: float) -> Row:
+def figures(result: SlidingContact, **more: float) -> Row:
     """Return the figures of a contact."""
     return contact_tables.figures(
         A=result.contact_area,
@@ -116,7 +116,7 @@ def found(result: SlidingContact, **more: float) -> Row:
 def solved(row: Row) -> Row:
     """Return the row with what the solver says of its contact."""
     result = pressed(surface(row), row, 1e-4)
-    return row | found(result, energy=result.elastic_energy, error=result.error)
+    return row | figures(result, energy=result.elastic_energy, error=result.error)
 
 
 if __name__ == "__main__":

@@ -82,7 +82,7 @@ def spectrum(row: Row) -> asperity.TabulatedSpectrum:
 
 def solved(row: Row) -> Row:
     """Return the row with what the solver says of its contact."""
-    return row | make_exact_sliding.found(make_exact_sliding.pressed(surface(row), row, 1e-3))
+    return row | make_exact_sliding.figures(make_exact_sliding.pressed(surface(row), row, 1e-3))
 
 
 if __name__ == "__main__":

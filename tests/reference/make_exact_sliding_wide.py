@@ -174,7 +174,7 @@ def solved(row):
         ((area, mu),) = nested(row, edges, [load], map=map)
         figures |= {"A_nested": area, "mu_nested": mu}
     if map:
-        row = row | make_exact_sliding.found(pressed(map, row, load, velocity))
+        row = row | make_exact_sliding.figures(pressed(map, row, load, velocity))
     return row | contact_tables.figures(**figures)
 
 

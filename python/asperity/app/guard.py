@@ -41,16 +41,16 @@ class Guard:
         if scope["type"] == "lifespan":
             await self._application(scope, receive, send)
             return
-        asked = HTTPConnection(scope)
-        by_address = self._is_token(asked.query_params.get("token", ""))
-        by_cookie = self._is_token(asked.cookies.get(self._cookie, ""))
-        is_let_in = (by_address or by_cookie) and not _foreign(asked.headers)
-        length = asked.headers.get("content-length", "0")
-        if scope["type"] == "websocket" and not is_let_in:
+        connection = HTTPConnection(scope)
+        by_address = self._is_token(connection.query_params.get("token", ""))
+        by_cookie = self._is_token(connection.cookies.get(self._cookie, ""))
+        may_talk = (by_address or by_cookie) and not _foreign(connection.headers)
+        length = connection.headers.get("content-length", "0")
+        if scope["type"] == "websocket" and not may_talk:
             await send({"type": "websocket.close", "code": 1008})
         elif scope["type"] == "websocket":
             await self._application(scope, receive, send)
-        elif not is_let_in:
+        elif not may_talk:
             await PlainTextResponse(_REFUSED, 403, _CLOSE)(scope, receive, send)
         elif not length.isdigit() or int(length) > MOST_BODY:
             await PlainTextResponse(_TOO_LARGE, 413, _CLOSE)(scope, receive, send)

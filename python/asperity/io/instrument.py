@@ -87,7 +87,7 @@ def left_out(name: str, given: Any, source: str = "file") -> None:
         raise refusal(name, given, f"left out, the {source} states its own", text=f"{given!r}")
 
 
-def one_states(name: str, given: Any, stated: Any, source: str = "file") -> None:
+def check_stated_once(name: str, given: Any, stated: Any, source: str = "file") -> None:
     """Refuse an argument that what is read states itself, and one that nobody states."""
     if stated is not None:
         left_out(name, given, source)
@@ -191,7 +191,7 @@ def read_container(path: Path, channel: int, unit: str | None) -> Scan:
             topography = scans[channel]()
         finally:
             gc.collect()  # the library leaves files open, in circles of references
-    one_states("unit", unit, topography.unit)
+    check_stated_once("unit", unit, topography.unit)
     return of_topography(topography, None if unit is None else METRES[unit], None)
 
 
@@ -203,9 +203,9 @@ def _read_channel(
     if not info.is_height_channel:
         kinds = ", ".join(f"{c.index}: {c.data_kind.value}" for c in reader.channels)
         raise refusal("channel", channel, f"one of heights ({kinds})", text=f"{channel}")
-    one_states("unit", unit, info.unit)
+    check_stated_once("unit", unit, info.unit)
     is_coarse = pixel_size is not None and _coarse(info)
-    one_states("pixel_size", pixel_size, None if is_coarse else info.physical_sizes)
+    check_stated_once("pixel_size", pixel_size, None if is_coarse else info.physical_sizes)
     unsized = info.physical_sizes is None  # SurfaceTopography wants some size
     sizes = {"physical_sizes": info.nb_grid_pts} if unsized else {}
     topography = reader.topography(channel_index=channel, **sizes)

@@ -12,10 +12,10 @@ from asperity.io.instrument import (
     METRES,
     PixelSize,
     check_equal_distances,
+    check_stated_once,
     checked_unit,
     left_out,
     of_topography,
-    one_states,
 )
 from asperity.io.instrument import surface_of as made
 from asperity.io.positions import surface_at
@@ -47,7 +47,7 @@ def surface_from(
     """
     if callable(getattr(candidate, "heights", None)) and hasattr(candidate, "physical_sizes"):
         left_out("pixel_size", pixel_size, "object")
-        one_states("unit", unit, getattr(candidate, "unit", None), "object")
+        check_stated_once("unit", unit, getattr(candidate, "unit", None), "object")
         return of_topography(candidate, None if unit is None else METRES[unit], None)
     if hasattr(candidate, "data_vars"):
         maps = [one for one in candidate.data_vars.values() if one.ndim in (1, 2)]

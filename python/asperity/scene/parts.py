@@ -71,7 +71,7 @@ def build_correction(
     fields = CORRECTIONS[kind]
     section = Section.read(path, "correction", table, fields)
     if "z_max_m" in fields:
-        section = section.having(_with_map(section, kind, surface, surface_values))
+        section = section.replace_values(_with_map(section, kind, surface, surface_values))
     section.require(*required(fields))
     values = section.values
     settings = arguments(values, fields)
@@ -124,7 +124,7 @@ def _with_map(
         if "q0_per_m" in surface_values:
             values.setdefault("q0_per_m", surface_values["q0_per_m"])
         hint = "the wavenumber of the macro-asperities, which a scan does not tell"
-        section.having(values).require("q0_per_m", hint=hint)
+        section.replace_values(values).require("q0_per_m", hint=hint)
     if surface_values["detrend"] != "none":
         surface = surface.detrend(surface_values["detrend"])
     if "min_distance_m" in values:

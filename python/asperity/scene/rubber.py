@@ -137,7 +137,7 @@ def build_rubber(
         values = _in_kelvin(section)
         if temperature is not None:
             values["temperature_k"] = temperature
-        built = _build(section.having(values), source, measured or build_measured)
+        built = _build(section.replace_values(values), source, measured or build_measured)
     used = {**_STATED[source], **built.values}
     if temperature is not None:
         del used["temperature_k"]
@@ -227,7 +227,7 @@ def _from_isotherms(section: Section, measure: Measured) -> BuiltRubber:
     section.require("temperature_k", hint=f"{_ADD}: isotherms give E at several")
     wanted = section.values["temperature_k"]
     with _naming_temperature(section.values):
-        known = section.having({"reference_temperature_k": wanted, **section.values})
+        known = section.replace_values({"reference_temperature_k": wanted, **section.values})
         return _at_a_temperature(known, measure)
 
 
@@ -238,7 +238,7 @@ def _at_a_temperature(section: Section, measure: Measured) -> BuiltRubber:
         allowed = 'must be "prony" or left out' if fitted else '"prony" needs prony = true'
         section.refuse("extrapolation", allowed, valued(extrapolation, extrapolation))
     at_any = {key: one for key, one in values.items() if key != "temperature_k"}
-    isotherms, build = measure(section.having(at_any))
+    isotherms, build = measure(section.replace_values(at_any))
     rubber = _at_temperature(section, build, extrapolation)
 
     def draw(rng: Generator) -> ShiftedRubber:  # its shifts move the ends of what was measured
@@ -249,7 +249,9 @@ def _at_a_temperature(section: Section, measure: Measured) -> BuiltRubber:
     if values.get("vertical_shift") is not None:  # the model of heat has no b_T
         return made
 
-    at_reference = section.having({**values, "temperature_k": values["reference_temperature_k"]})
+    at_reference = section.replace_values(
+        {**values, "temperature_k": values["reference_temperature_k"]}
+    )
 
     def shifted(build: MasterCurveBuild, beyond: str | None) -> ShiftedRubber:
         return ShiftedRubber(_at_temperature(at_reference, build, beyond), build)

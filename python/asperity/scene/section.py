@@ -25,7 +25,7 @@ class Section:
     def read(cls, path: Path, name: str, table: object, fields: Mapping[str, Field]) -> "Section":
         return cls(path, name, read_table(path, name, table, fields))
 
-    def having(self, values: Values) -> "Section":
+    def replace_values(self, values: Values) -> "Section":
         return replace(self, values=values)
 
     def refuse(self, key: str, problem: str, phrase: Value | None = None) -> NoReturn:

@@ -123,7 +123,7 @@ def build_surface(path: Path, table: object, read: Read | None = None) -> Surfac
         section.leave_out(_SELF_AFFINE, "file is given")
         every = "channel" not in section.values
         defaults = {**defaults_of(_READ), **defaults_of(_TRANSFORM)}
-        section = section.having({**defaults, **section.values})
+        section = section.replace_values({**defaults, **section.values})
         scans, facts = (read or read_scans)(section, every)
         derived |= facts
         measured, fit, floor = _measure(section, scans)
@@ -181,7 +181,7 @@ def read_scans(section: Section, every: bool) -> tuple[list[Scan], Values]:
     facts: dict[str, list[Any]] = {"shape": [], "pixel_size_m": [], "dropout_fraction": []}
     scans = []
     for file, channel in _channels(folder, named, values["channel"], every):
-        one = section.having({**values, "channel": channel})
+        one = section.replace_values({**values, "channel": channel})
         raw, filled = one.call(read_filled, _READ, file)
         scans.append(filled)
         facts["shape"].append(list(raw.heights.shape))
