@@ -62,7 +62,8 @@ class SFactor(CoreValue):
     Mean errors on the elastic contacts of `asperity validate` (all corrections, and the worst, in
     docs/explanation/corrections.md), without correction: area 17 %, elastic energy, which the
     integrand of Eq. 22 weighs, 69 %. "area": area 3.4 % at gamma = 0.5, 2.4 % at 5/9. "friction":
-    energy 4.0 % at 0.4, 14 % at 0.5. Beyond their bandwidths and loads results carry a note.
+    energy 4.0 % at 0.4, 14 % at 0.5. They have q1/q0 from 2 to 128 and p / (E* h') from 0.005 to 1;
+    beyond this bandwidth and below this load results carry a note.
     """
 
     _title = "S-factor"
