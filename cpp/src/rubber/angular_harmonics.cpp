@@ -21,9 +21,6 @@ namespace {
 constexpr std::size_t order = AngularPolynomials::order;
 constexpr std::size_t together = AngularPolynomials::together;
 
-/// Frequencies of the same exponent and first six binary digits.
-std::uint64_t bucket(double w) { return std::bit_cast<std::uint64_t>(w) >> 46; }
-
 constexpr std::size_t in_blocks(std::size_t columns) { return (columns + lanes - 1) / lanes * lanes; }
 
 #define ASPERITY_LOOPS "rubber/harmonic_loops.inc"
@@ -142,7 +139,8 @@ HarmonicTable::HarmonicTable(const AngularTable& table, const ModulusPiece& tail
       const std::array<double, order> beyond = powers(Eigen::Map<const Values>(outside));
       for (std::size_t i = 0; i < order; ++i) outside_[(cells_.size() - 1) * order * lanes + i * lanes] = beyond[i];
       high_.push_back(c + 1 == cuts ? edges[p + 1] : w_at(from + 2 * half));
-      first_.resize(bucket(high_.back()) - bucket(lowest_) + 1, static_cast<std::uint32_t>(cells_.size() - 1));
+      first_.resize(frequency_bucket(high_.back()) - frequency_bucket(lowest_) + 1,
+                    static_cast<std::uint32_t>(cells_.size() - 1));
       odd.step(first, rise, [&](std::size_t k, const Values& f) { keep(2 * k + 2, f); });
       even.step(second, rise, [&](std::size_t k, const Values& f) { keep(2 * k + 3, f); });
     }
@@ -162,14 +160,14 @@ bool HarmonicTable::operator()(std::span<const double> w, std::size_t count, dou
   std::vector<double*> many_addresses(columns > few ? columns : 0);
   double* const value = columns > few ? many_values.data() : few_values;
   double** const to = columns > few ? many_addresses.data() : few_addresses;
-  const std::uint64_t lowest = bucket(lowest_);
+  const std::uint64_t lowest = frequency_bucket(lowest_);
   bool any_outside = false;
   for (std::size_t from = 0; from < n; from += together) {
     const std::size_t here = std::min(together, n - from);
     bool has_outside = false;
     for (std::size_t i = 0; i < together; ++i) {
       const double at = std::min(std::max(lowest_, w[from + (i < here ? i : 0)]), high_.back());
-      std::size_t c = first_[bucket(at) - lowest];
+      std::size_t c = first_[frequency_bucket(at) - lowest];
       while (at > high_[c]) ++c;
       const Cell& cell = cells_[c];
       const double share = std::max(0.0, (at - cell.panel_low) * cell.inverse_length);

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "numerics/arguments.hpp"
-#include "numerics/interpolation.hpp"
 
 namespace asperity {
 
@@ -46,7 +45,12 @@ AngularTable::AngularTable(std::span<const ModulusPiece> pieces)
     : sums_(pieces),
       lowest_(pieces.front().high),
       highest_(pieces.back().high),
-      made_(std::make_unique<std::atomic<const Parts*>[]>(sums_.edges().size())) {}
+      made_(std::make_unique<std::atomic<const Parts*>[]>(sums_.edges().size())) {
+  const std::span<const double> edges = sums_.edges();
+  const auto bucket = [&](double w) { return frequency_bucket(w) - frequency_bucket(edges[0]); };
+  for (std::uint32_t p = 0; p + 1 < edges.size(); ++p) first_.resize(bucket(edges[p + 1]) + 1, p);
+  first_.push_back(static_cast<std::uint32_t>(edges.size() - 2));
+}
 
 AngularTable::~AngularTable() {
   for (std::size_t p = 0; p < sums_.edges().size(); ++p) delete made_[p].load();
@@ -98,7 +102,9 @@ const AngularTable::Part& AngularTable::next(double at, std::size_t& panel) cons
   if (at >= edges[panel] && at < edges[std::min(panel + near, edges.size() - 1)]) {
     while (at >= edges[panel + 1]) ++panel;
   } else {
-    panel = interval_of(edges, at);
+    const std::uint32_t* const first = &first_[frequency_bucket(at) - frequency_bucket(edges[0])];
+    const auto above = std::upper_bound(edges.begin() + first[0] + 1, edges.begin() + first[1] + 1, at);
+    panel = static_cast<std::size_t>(above - edges.begin()) - 1;
   }
   const Parts& of = parts(panel);
   std::size_t i = 0;

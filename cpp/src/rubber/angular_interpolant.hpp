@@ -3,7 +3,9 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -12,6 +14,9 @@
 #include "rubber/angular_quadrature.hpp"
 
 namespace asperity {
+
+/// Frequencies of the same exponent and first six binary digits.
+inline std::uint64_t frequency_bucket(double w) { return std::bit_cast<std::uint64_t>(w) >> 46; }
 
 /// Two polynomials side by side, on [-1, 1].
 struct AngularPolynomials {
@@ -64,6 +69,7 @@ class AngularTable {
 
   AngularSums sums_;
   double lowest_, highest_;                            // [rad/s]
+  std::vector<std::uint32_t> first_;                   // panel at the lower end of each bucket of frequencies
   std::unique_ptr<std::atomic<const Parts*>[]> made_;  // of each panel; null before its first use
 };
 

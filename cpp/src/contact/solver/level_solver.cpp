@@ -24,7 +24,7 @@ constexpr double for_edges = 0.02;  // of the tolerance
 /// The error of the finer level, by what it changes: it should be a sixteenth. Other sums tell the error where mu and
 /// the area agree by chance. What pieces leave out of rough rings differs from level to level without a rule.
 constexpr double of_change = 0.75, of_rest = 2;
-constexpr double of_change_across = 0.25;    // of the force across, whose harmonics have errors of their own:
+constexpr double of_change_across = 0.25;    // of the force across: what pieces leave out of it stands beside it
 constexpr double of_left_out = 2;            // of what pieces leave out of harmonics, about at most
 constexpr double of_change_at_fronts = 1.5;  // beside which levels agree by chance
 /// Two levels may agree by chance, so that of the tolerance something is taken at least: on pieces one point in a
@@ -266,7 +266,7 @@ bool LevelSolver::solve_on(Levels& levels, double pressure, double shift) {
     return std::fmax(share * model_.rtol - others_, least_accepted * model_.rtol);
   };
   double change_before = 0;
-  bool with_rests = false;  // which take a third of what the level takes
+  bool with_rests = false;  // of harmonics, which are added where the levels do not do without
   for (std::size_t number = 1; number < levels.size(); ++number) {
     if (number > 1) heed();
     Level& level = at_velocity(levels, number);
